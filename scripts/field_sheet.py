@@ -12,19 +12,20 @@ from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize  # noqa: E
 from matplotlib.ticker import MaxNLocator  # noqa: E402
 
 DPI = 150
-SYMBOLS = {"u": ("displacement", "u"), "v": ("velocity", "v"), "stress": ("stress", r"\sigma")}
+SYMBOLS = {"u": ("displacement", "u", "m"), "v": ("velocity", "v", "m/s"), "stress": ("stress", r"\sigma", "Pa")}
+UNITS = {"pore_pressure": "Pa", "pc": "Pa"}  # of what the laws remember
 MARGIN = 0.04  # around the points, as a share of the larger side
 
 
 def name_of(field, dim):
-    """plastic_strain → plastic strain, u → displacement |u|, stress_xy → stress σ with its indices."""
+    """plastic_strain → plastic strain, u → displacement |u| [m], stress_xy → stress σ with its indices [Pa]."""
     name, _, index = field.partition("_")
     if name in SYMBOLS and re.fullmatch("[xyz]{0,2}", index):
-        word, symbol = SYMBOLS[name]
+        word, symbol, unit = SYMBOLS[name]
         if index:
-            return f"{word} ${symbol}_{{{index}}}$"
-        return f"{word} ${symbol}$" if dim == 1 else f"{word} $|{symbol}|$"
-    return plain(field.replace("_", " "))
+            return f"{word} ${symbol}_{{{index}}}$ [{unit}]"
+        return f"{word} ${symbol}$ [{unit}]" if dim == 1 else f"{word} $|{symbol}|$ [{unit}]"
+    return plain(field.replace("_", " ")) + (f" [{UNITS[field]}]" if field in UNITS else "")
 
 
 def colours_of(stages):

@@ -93,7 +93,8 @@ class Box:
         aligned = {"ha": "left" if outwards[0] > 0 else "right", "va": "top" if outwards[1] < 0 else "center"}
         for value, foot in zip(ticks, feet):
             panel.axis.text(*(foot + 0.08 * outwards), f"{value:.6g}".replace("-", "−"), fontsize="small", **aligned)
-        panel.axis.text(*(ends.mean(axis=0) + 1.9 * line * outwards), f"${'xyz'[axis]}$", ha="center", va="center")
+        panel.axis.text(*(ends.mean(axis=0) + 1.9 * line * outwards), f"${'xyz'[axis]}$ [m]", ha="center", va="center",
+                        rotation=90 if axis == 1 else 0)  # fmt: skip
 
 
 # --- the picture -----------------------------------------------------------------------------------
@@ -104,7 +105,7 @@ def extent_of(places):
 
 
 class SpaceSheet(Sheet):
-    RIGHT, GAP = 0.5, 0.4  # numbers and the name z stand there
+    RIGHT, GAP = 0.5, 0.5  # numbers and the name z stand there
     BELOW = 1.4  # what is written along the lower edges of a box is inside its panel
 
 

@@ -102,12 +102,20 @@ def evenly_spread(count, wanted):
 
 
 def slope_angles(summary, folder):
-    """{t: angle} of the stages in summary.json."""
+    """{t: angle} of the stages in summary.json, if a probe of the scene asks for it."""
     try:
+        if not any("slope_angle" in fields for fields in (summary.get("probes") or {}).values()):
+            return {}
         stages = [(float(stage["t"]), stage["slope_angle"]) for stage in summary.get("stages") or []]
         return {t: float(angle) for t, angle in stages if angle is not None}
-    except (TypeError, KeyError, ValueError):
+    except (AttributeError, TypeError, KeyError, ValueError):
         raise Refused(f"{folder / 'summary.json'}: expected stages of numbers t and slope_angle") from None
+
+
+def yielded(frames, fields):
+    """["plastic_strain"] if some point has yielded in one of the frames."""
+    name = "plastic_strain"
+    return [name] if name in fields and any((frame[name][()] > 0).any() for frame in frames) else []
 
 
 def read_stages(frames, field, angles):
@@ -155,7 +163,7 @@ def read_run(folder, field, wanted):
             common = [name for name in offers[0] if all(name in offer for offer in offers)]
             if not common:
                 raise Refused(f"{file}: no fields, so nothing to draw")
-            field = field or next(name for name in ("plastic_strain", "u", *common) if name in common)
+            field = field or next(name for name in (*yielded(frames, common), "u", *common) if name in common)
             if field not in common:
                 raise Refused(f"{file}: no field '{field}'; there are {', '.join(common)}")
             stages = read_stages(frames, field, slope_angles(summary, folder))

@@ -1,20 +1,22 @@
 #!/usr/bin/python3
 """plot_converge.py DIR [--out FILE]: the picture of a convergence study, from DIR/converge.json.
 
-Errors against the size of what is refined, with slopes of the orders that theory knows beside the finest level, and the
-same errors against wall time: speed against error. Of several series each is a line, of the quantity that all have an
-error of. FILE is DIR/converge.png if not given. Exit status 2 and a message if there is nothing to
-draw.
+Errors against the size of what is refined, and the same errors against wall time: speed against error. Thin grey lines
+have the orders that theory knows, or else the whole one (1, 2, 3…) that is nearest to what was measured, each below the
+smallest errors of that order. Of several series each is a line, of the quantity that all have an error of. FILE is
+DIR/converge.png if not given. Exit status 2 and a message if there is nothing to draw.
 """
 
 import math
 import sys
+import textwrap
 
 from pictures import COLOURS, STYLE, Refused, draw_study, plain, read_study, title_of  # before pyplot: sets the backend
 import matplotlib.pyplot as plt  # noqa: E402
 
 MARKERS = "osd^v<>"
-SIZES = {"h": "h [m]", "points": "1/points per cell", "step": "step [s]", "rtol": "rtol", "motion": "max_motion [cells]"}
+MOST_TICKS = 8
+SIZES = {"h": "$h$ [m]", "points": "1/points per cell", "step": "step [s]", "rtol": "rtol", "motion": "max_motion [cells]"}
 
 
 def read(folder):
@@ -57,25 +59,41 @@ def label_of(name, order):
     return f"{name}: {order['order']:.2f}{interval}"
 
 
-def lowest_by_theory(lines):
-    """{order that theory knows: the levels of the smallest error that has it}."""
+def order_beside(points, order):
+    """That of theory, or else the whole one nearest to what was measured; None of a single level."""
+    if order and order.get("theory"):
+        return order["theory"]
+    if len(points) < 2:
+        return None
+    (coarse, _, larger), (size, _, error) = points[-2:]
+    return max(1, round(order["order"] if order else math.log(larger / error) / math.log(coarse / size)))
+
+
+def lowest_by_order(lines):
+    """{order that is drawn: the levels of the smallest error beside which it stands}."""
     lowest = {}
     for _, points, order in lines:
-        theory = (order or {}).get("theory")
-        if theory and len(points) > 1 and (theory not in lowest or points[-1][2] < lowest[theory][-1][2]):
-            lowest[theory] = points
+        beside = order_beside(points, order)
+        if beside and len(points) > 1 and (beside not in lowest or points[-1][2] < lowest[beside][-1][2]):
+            lowest[beside] = points
     return lowest
 
 
 def draw_slope(axis, points, order):
-    """A line of the order below the two finest levels."""
-    size, _, error = points[-1]
-    coarse = points[-2][0]
-    below = 0.6
-    ends = [size, coarse], [below * error, below * error * (coarse / size) ** order]
-    axis.plot(*ends, color="0.6", linewidth=1, zorder=0)
-    axis.annotate(f"{order:g}", (math.sqrt(size * coarse), math.sqrt(ends[1][0] * ends[1][1])), color="0.5",
-                  textcoords="offset points", xytext=(4, -10), fontsize="small")
+    """A line of the order over all levels, below their errors."""
+    below = 0.6 * min(error / size**order for size, _, error in points)
+    sizes = [points[-1][0], points[0][0]]
+    errors = [below * size**order for size in sizes]
+    axis.plot(sizes, errors, color="0.6", linewidth=0.8, zorder=0)
+    axis.annotate(f"{order:g}", (sizes[1], errors[1]), color="0.4", textcoords="offset points", xytext=(4, -3),
+                  fontsize="small")
+
+
+def name_sizes(axis, sizes):
+    """Ticks at the levels, if there are few enough to be read."""
+    if len(sizes) <= MOST_TICKS:
+        axis.set_xticks(sizes, [f"{size:.3g}" for size in sizes])
+        axis.set_xticks([], minor=True)
 
 
 def draw(study, file):
@@ -90,14 +108,15 @@ def draw(study, file):
         sizes, times, errors = zip(*points)
         by_size.plot(sizes, errors, label=plain(label_of(name, order)), **look)
         by_time.plot(times, errors, **look)
-    for theory, points in lowest_by_theory(lines).items():
-        draw_slope(by_size, points, theory)
+    for order, points in lowest_by_order(lines).items():
+        draw_slope(by_size, points, order)
     for axis, what in ((by_size, SIZES[study["refined"][0]]), (by_time, "wall time [s]")):
         axis.set(xscale="log", yscale="log", xlabel=what)
         axis.grid(color="0.92")
         axis.set_axisbelow(True)
+    name_sizes(by_size, sorted({point[0] for _, points, _ in lines for point in points}))
     of = f"{quantity_of(study['series'])}: " if "series" in study else ""
-    by_size.set_ylabel(plain(f"{of}error against {first['reference']}"))
+    by_size.set_ylabel(textwrap.fill(plain(f"{of}error against {first['reference']}"), 50))
     by_size.legend(title="order (95 %)", frameon=False, fontsize="small")
     figure.suptitle(plain(title_of(study)))
     figure.tight_layout()

@@ -5,10 +5,10 @@ DIR/fields.h5 by a field.
 In the plane a panel a stage: the points at their deformed places, coloured by the field; several runs have a row each.
 A bar has a panel a run, with a line a stage. NAME is what fields.h5 has (plastic_strain, stress_xy, …); of a vector its
 length (u) or a component (u_x); or `layers`: alternating layers and columns of the undeformed body, to show what
-became of them. Without --field: plastic_strain, or u. N stages are drawn, evenly spread over those in the file: at most
-6, or 3 of each of several runs. The last stage of a run that found a limit load has arrows along the velocity, its
-mechanism. FILE is DIR/fields.png if not given. Exit status 2 and a message where there is nothing
-to draw.
+became of them. Without --field: plastic_strain if some point has yielded, or u. N stages are drawn, evenly spread over those
+in the file: at most 6, or 3 of each of several runs. A slope angle is told if a probe of the scene asks for it. The last
+stage of a run that found a limit load has arrows along the velocity, its mechanism. FILE is DIR/fields.png if not given.
+Exit status 2 and a message where there is nothing to draw.
 
 A body in space is seen from where x, y and z are large, y up, with one scale along all three. Its surface is lit: the
 top has the colours of the bar, a little paler, what turns away from the light darker ones; points whose value is no
@@ -49,7 +49,7 @@ def draw_plane(runs, field):
         for ticks in (axis.xaxis, axis.yaxis):
             ticks.set_major_locator(MaxNLocator(4 if sheet.small else 5, steps=[1, 2, 5, 10]))
         axis.tick_params(labelbottom=panel.lowest, labelleft=panel.first)
-        axis.set(xlabel="$x$" if panel.lowest else "", ylabel="$y$" if panel.first else "")
+        axis.set(xlabel="$x$ [m]" if panel.lowest else "", ylabel="$y$ [m]" if panel.first else "")
         spacing = scale * spacing_of(stage.place)
         diameter = max(spacing, min(1.4 * spacing, 2.5), 0.9)  # fine ones overlap: gaps as fine as pixels make moirés
         axis.scatter(*stage.place.T, c=stage.values, s=diameter**2, cmap=cmap, norm=norm, linewidths=0, rasterized=True)
@@ -70,7 +70,7 @@ def draw_bars(runs, field):
             order = np.argsort(stage.place[:, 0])
             x, values = stage.place[order, 0], stage.values[order]
             axis.plot(x, values, ".-", color=shade, linewidth=1.2, markersize=4, label=f"$t$ = {stage.t:.4g}")
-        axis.set(xlabel="place $x$", ylabel=name_of(field, 1) if axis is axes[0][0] else "")
+        axis.set(xlabel="position $x$ [m]", ylabel=name_of(field, 1) if axis is axes[0][0] else "")
         axis.ticklabel_format(axis="y", scilimits=(-2, 4), useMathText=True)
         axis.grid(color="0.92")
         axis.set_axisbelow(True)

@@ -8,6 +8,7 @@
 
 #include "output/run_folder.hpp"
 #include "simulation/contact_figures.hpp"
+#include "simulation/motion_figures.hpp"
 #include "simulation/support_figures.hpp"
 
 namespace stillpoint {
@@ -52,6 +53,7 @@ std::vector<std::string> Recorder::columns() const {
   std::vector<std::string> all = probes_.columns();
   std::ranges::copy(reaction_columns(problem_), std::back_inserter(all));
   std::ranges::copy(contact_columns(problem_), std::back_inserter(all));
+  std::ranges::move(motion_columns(problem_), std::back_inserter(all));
   if (problem_.load || problem_.later_load) all.insert(all.end(), {"load.factor", "load.displacement"});
   std::ranges::copy(energy_balance_.columns(), std::back_inserter(all));
   if (has_distance_) all.emplace_back("distance");
@@ -82,6 +84,7 @@ void Recorder::add_row(RunState& run) {
   std::vector<double> values = probes_.read(t, motion.u(), motion.v());
   std::ranges::copy(reaction_values(problem_, phase_, t, motion), std::back_inserter(values));
   std::ranges::copy(contact_values(problem_, phase_, t, motion.u()), std::back_inserter(values));
+  std::ranges::move(motion_values(problem_, t), std::back_inserter(values));
   if (const auto load = phase_.supports().load_state(t, motion.u())) {
     values.insert(values.end(), {load->factor, load->displacement});
     if (!(load->factor <= largest_factor_)) largest_factor_ = load->factor;

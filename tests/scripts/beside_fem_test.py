@@ -44,6 +44,20 @@ def the_study(folder, program="#!/bin/bash\nexit 4\n", finite_elements="", *opti
     return call(sys.executable, ROOT / "scripts/beside_fem.py", *words, env=environment)
 
 
+# --- the quick form ------------------------------------------------------------------------------------
+
+
+@claim("the quick form says which error is larger beside finite elements than it has to be, and takes NaN for such a one")
+def _(_folder):
+    study = script_module("beside_fem")
+    errors = {name: {"ratio": limit} for name, limit in study.QUICK_LIMITS.items()}
+    assert study.beyond(study.QUICK_LIMITS, errors) == []
+    for name, limit in study.QUICK_LIMITS.items():
+        for ratio in (1.01 * limit, math.nan):
+            said = study.beyond(study.QUICK_LIMITS, errors | {name: {"ratio": ratio}})
+            assert len(said) == 1 and said[0].startswith(name) and said[0].endswith(f"expected at most {limit}"), said
+
+
 # --- curves --------------------------------------------------------------------------------------------
 
 

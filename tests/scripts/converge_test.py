@@ -2,6 +2,7 @@
 """converge_test.py ROOT CLAIM PROGRAM: one claim about scripts/converge and scripts/plot_converge.py."""
 
 import json
+import math
 
 from claims import ROOT, call, check_the_claim, claim, copy_of_scripts, script_module
 
@@ -52,7 +53,13 @@ def is_refused(folder, *words):
     assert not (folder / "converge.png").exists()
 
 
-@claim("a convergence study is drawn with a line a quantity, its order, and the slope that theory knows")
+def slopes_of(axis):
+    """{order: ends of its line} of the order lines."""
+    lines = [line.get_xydata() for line in axis.lines if line.get_label().startswith("_")]
+    return {round(math.log(b[1] / a[1]) / math.log(b[0] / a[0]), 12): (a, b) for a, b in lines}
+
+
+@claim("a convergence study is drawn with a line a quantity, its order, and lines of the orders that theory knows")
 def _(folder):
     plot_converge = script_module("plot_converge")
     plot_converge.draw(plot_converge.read(write(folder, STUDY)), folder / "a.png")
@@ -61,8 +68,9 @@ def _(folder):
     assert list(lines) == ["u_l2: 2.00 (1.90 to 2.10)", "end.u: 2.00"], lines
     assert lines["u_l2: 2.00 (1.90 to 2.10)"].get_xydata().tolist() == [[0.5, 0.16], [0.25, 0.04], [0.125, 0.01]]
     assert lines["end.u: 2.00"].get_xydata().tolist() == [[0.5, 0.2], [0.25, 0.1]]
-    (slope,) = [line.get_xydata() for line in by_size.lines if line.get_label().startswith("_")]
-    assert abs(slope[1][1] / slope[0][1] - 4) < 1e-12 and slope[0][1] < 0.01, slope
+    slopes = slopes_of(by_size)
+    assert list(slopes) == [2] and [text.get_text() for text in by_size.texts] == ["2"], slopes
+    assert slopes[2][0][0] == 0.125 and slopes[2][1][0] == 0.5 and slopes[2][0][1] < 0.01, slopes
     assert by_time.lines[0].get_xdata().tolist() == [0.1, 0.3, 1.0]
     assert (folder / "a.png").read_bytes().startswith(b"\x89PNG")
 
@@ -76,9 +84,26 @@ def _(folder):
     assert list(lines) == ["grid.basis=linear: 2.00 (1.90 to 2.10)", "grid.basis=cubic: 4.00 (1.90 to 2.10)"], lines
     assert by_size.get_ylabel().startswith("u_l2: error"), by_size.get_ylabel()
     assert [list(line.get_xdata()) for line in by_time.lines] == [[0.1, 0.3, 1.0]] * 2
-    slopes = [line.get_ydata() for line in by_size.lines if line.get_label().startswith("_")]
-    assert [round(float(end[1] / end[0])) for end in slopes] == [4, 16], slopes
+    assert list(slopes_of(by_size)) == [2, 4], slopes_of(by_size)
     is_refused(write(folder / "none", VARIED | {"series": [VARIED["series"][2]]}), "nothing to draw")
+
+
+@claim("where theory knows no order the line beside errors has the whole one nearest to what was measured, below all of them")
+def _(folder):
+    plot_converge = script_module("plot_converge")
+    measured = ORDER | {"order": 2.6, "low": None, "high": None, "theory": None}
+    errors = {"fast": [0.8, 0.1, 0.05], "slow": [0.5, 0.45, 0.4], "two": [0.04, 0.01, None], "one": [0.3, None, None]}
+    quantities = {name: {"values": values, "errors": values} for name, values in errors.items()}
+    study = STUDY | {"quantities": quantities, "orders": {"fast": measured, "slow": None, "two": None, "one": None}}
+    plot_converge.draw(plot_converge.read(write(folder, study)), folder / "a.png")
+    axis = plot_converge.plt.gcf().axes[0]
+    slopes = slopes_of(axis)
+    assert sorted(slopes) == [1, 2, 3], slopes  # 2.6, 0.17 of two levels, and 2
+    for order, name in ((3, "fast"), (1, "slow"), (2, "two")):
+        (size, error), _ = slopes[order]
+        levels = zip((0.5, 0.25, 0.125), errors[name])
+        assert all(at is None or error * (h / size) ** order < 0.7 * at for h, at in levels), (order, slopes)
+    assert axis.get_xlabel() == "$h$ [m]" and [tick.get_text() for tick in axis.get_xticklabels()] == ["0.125", "0.25", "0.5"]
 
 
 @claim("a convergence study that is missing, broken or without errors is refused with status 2")

@@ -9,6 +9,7 @@ from claims import ROOT, call, check_the_claim, claim
 from field_pictures import figure_of, is_refused, write
 
 SIDE = 0.1  # between the points of a_body
+ASKED = {"surface": {"slope_angle": 31.26}}  # probes of a summary
 
 
 def a_body(columns=40, rows=24):
@@ -46,10 +47,9 @@ def _(folder):
     is_refused(["no field 'layers'"], bar, "--field", "layers")
     is_refused(["--cut x=1", "only a body in space"], bar, "--cut", "x=1")
     is_refused(["one picture"], a_shear(folder), bar, "--field", "u")
-    (folder / "summary.json").write_text('{"stages": [{"t": 0}]}')
-    is_refused(["summary.json", "slope_angle"], folder)
-    (folder / "summary.json").write_text('{"stages": [{"t": 0, "slope_angle": "steep"}]}')
-    is_refused(["summary.json", "slope_angle"], folder)
+    for stage in ({"t": 0}, {"t": 0, "slope_angle": "steep"}):
+        (folder / "summary.json").write_text(json.dumps({"stages": [stage], "probes": ASKED}))
+        is_refused(["summary.json", "slope_angle"], folder)
     result = call(ROOT / "scripts/plot_fields.py", folder, "--stages", "0")
     assert result.returncode == 2 and "one at least" in result.stderr
 
@@ -65,11 +65,14 @@ def _(folder):
     assert result.returncode == 0 and (folder / "a.pdf").read_bytes().startswith(b"%PDF"), result
 
 
-@claim("each stage has a panel with its time and slope angle, on axes and colours that all share")
+@claim("each stage has a panel with its time, and the slope angle if a probe asks for it, on axes and colours that all share")
 def _(folder):
     a_shear(folder, 4)
     stages = [{"t": 1.0, "slope_angle": 31.26}, {"t": 2.0, "slope_angle": None}, {"t": 9.0, "slope_angle": 1}]
-    (folder / "summary.json").write_text(json.dumps({"title": "costs $5 or $6", "stages": stages}))
+    summary = {"title": "costs $5 or $6", "stages": stages, "probes": {"toe": {"u.x": 1.0}}}
+    (folder / "summary.json").write_text(json.dumps(summary))
+    assert [axis.get_title() for axis in panels_of(figure_of([folder]))] == [f"$t$ = {k}" for k in range(4)]
+    (folder / "summary.json").write_text(json.dumps(summary | {"probes": ASKED}))
     figure = figure_of([folder])
     panels = panels_of(figure)
     assert [axis.get_title() for axis in panels] == ["$t$ = 0", "$t$ = 1,  slope 31.3°", "$t$ = 2", "$t$ = 3"]
@@ -88,15 +91,26 @@ def _(folder):
     assert figure._suptitle.get_text() == r"costs \$5 or \$6"
 
 
-@claim("without plastic strain it is the length of u that is drawn, and a component by its name")
+@claim("without --field it is the plastic strain that is drawn if some point has yielded, and otherwise the length of u")
+def _(folder):
+    place = a_body()
+    strain = 0 * place[:, 0]
+    frames = [{"t": t, "place": place, "u": place, "plastic_strain": strain.copy()} for t in (0.0, 1.0)]
+    assert figure_of([write(folder / "elastic", frames)]).axes[-1].get_xlabel() == "displacement $|u|$ [m]"
+    frames[1]["plastic_strain"][7] = 1e-9
+    assert figure_of([write(folder / "yields", frames)]).axes[-1].get_xlabel() == "plastic strain"
+
+
+@claim("without plastic strain it is the length of u that is drawn, and a component by its name, each with its unit")
 def _(folder):
     place = a_body()
     u = np.stack([3 * place[:, 1], -4 * place[:, 1], 0 * place[:, 0]], axis=1)
     write(folder, [{"t": 0.0, "place": place, "u": u, "density": place[:, 0]}])
-    for field, factor, label in ((None, 5, "displacement $|u|$"), ("u_y", -4, "displacement $u_{y}$")):
+    for field, factor, label in ((None, 5, "displacement $|u|$ [m]"), ("u_y", -4, "displacement $u_{y}$ [m]")):
         figure = figure_of([folder], field)
         assert np.allclose(figure.axes[0].collections[0].get_array(), factor * place[:, 1])
         assert figure.axes[-1].get_xlabel() == label
+        assert (figure.axes[0].get_xlabel(), figure.axes[0].get_ylabel()) == ("$x$ [m]", "$y$ [m]")
 
 
 @claim("a material has a colour a number, and a field colours from its values but for a few extreme ones")
@@ -167,7 +181,7 @@ def _(folder):
     (axis,) = figure_of([folder]).axes
     assert [line.get_label() for line in axis.lines] == [f"$t$ = {k}" for k in range(3)]
     assert np.allclose(axis.lines[2].get_xydata(), (place[::-1, :1]) * [3, 2])
-    assert axis.get_ylabel() == r"stress $\sigma$"
+    assert axis.get_ylabel() == r"stress $\sigma$ [Pa]" and axis.get_xlabel() == "position $x$ [m]"
 
 
 @claim("the last stage of a run that found a limit load has its factor, and arrows along the velocity where that is")

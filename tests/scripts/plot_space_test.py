@@ -182,8 +182,8 @@ def _(folder):
     assert all(not a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k])
     assert all(box.x0 >= 0 and box.y0 >= 0 and box.x1 <= figure.bbox.width for box in boxes)
     names = {text.get_text() for text in panels[2].texts}
-    assert {"$x$", "$y$", "$z$", "0", "2"} <= names, names
-    assert figure_of([folder], "u_z").axes[-1].get_xlabel() == "displacement $u_{z}$"
+    assert {"$x$ [m]", "$y$ [m]", "$z$ [m]", "0", "2"} <= names, names
+    assert figure_of([folder], "u_z").axes[-1].get_xlabel() == "displacement $u_{z}$ [m]"
     is_refused(["there are u, u_x, u_y, u_z, layers\n"], folder, "--field", "heat")
 
 

@@ -147,7 +147,7 @@ def _(folder):
             seen.add(browser.picture())
         assert len(seen) == 3
         browser.find("canvas.picture").send_keys(Keys.ARROW_DOWN)
-        assert re.search(r"At \([\d.e−, ]+\) m: displacement \|u\| \[m\] = ", browser.text()), browser.text()
+        assert re.search(r"At \([\d.e−, ]+\) m: plastic strain = ", browser.text()), browser.text()
         fields = browser.find("select")
         before = browser.picture()
         fields.send_keys("mean stress")
@@ -169,9 +169,10 @@ def _(folder):
         browser.open(report)
         plots = browser.driver.find_elements(By.CSS_SELECTOR, "[aria-labelledby=history] .plot")
         legends = browser.driver.find_elements(By.CSS_SELECTOR, "[aria-labelledby=history] .legend")
-        plots[0].send_keys(Keys.HOME, Keys.ARROW_RIGHT)
-        assert f"t [s] {float(second['t']):g}" in legends[0].text, legends[0].text
-        assert f"residual {float(second['residual']):.6g}" in legends[0].text, (legends[0].text, second)
+        residual = 2  # after the two fields of the probes
+        plots[residual].send_keys(Keys.HOME, Keys.ARROW_RIGHT)
+        assert f"t [s] {float(second['t']):g}" in legends[residual].text, legends[residual].text
+        assert f"residual {float(second['residual']):.6g}" in legends[residual].text, (legends[residual].text, second)
 
         def curves():
             return browser.run("return [...document.querySelectorAll('.plot canvas:first-of-type')].map((one) => one.toDataURL()).join()")
@@ -187,6 +188,113 @@ def _(folder):
             until(lambda: curves() != whole)
             plot.find_element(By.XPATH, "../div[@class='tools']/button").click()
             until(lambda: curves() == whole)
+        assert browser.log() == []
+
+
+def titles_of(browser):
+    """[(title, what its x is)] of the plots of a history."""
+    titles = browser.driver.find_elements(By.CSS_SELECTOR, "[aria-labelledby=history] .chart h3")
+    below = browser.driver.find_elements(By.CSS_SELECTOR, "[aria-labelledby=history] .dygraph-xlabel")
+    return [(title.text, x.text) for title, x in zip(titles, below, strict=True)]
+
+
+@claim("the plots of a report stand in the order in which a reader asks, with units: load against displacement, probes, forces, residual and energies, and none of what never changes")
+def _(folder):
+    of_wall = ("Force of wall [N]", "its displacement [m]")
+    run = ["Residual ‖F − R‖/‖F‖", "Energies [J]", "Kinetic energy over external work"]
+    expected = {
+        report_of(folder / "bar", "run", "bar"): ["Displacement u [m]", "Stress [Pa]", run[0], "Error bound ‖u − u*‖/‖u‖", run[1]],
+        report_of(folder / "slope", "run", "slope", *SHORT_SLOPE): [of_wall, "Force [N]", *run],  # no slope yet: no angle
+        report_of(folder / "block", "run", "block_on_wall"): ["Displacement u [m]", "Velocity v [m/s]", "Force [N]", *run],
+    }
+    load = report_of(folder / "footing", "run", "footing_limit", 'probe=[{name="edge", at=[1.0, 3.9], fields=["u.y"]}]')
+    newton = report_of(folder / "newton", "run", "ladder/rigid_punch", "grid.cells=[20, 20]")
+    with Browser() as browser:
+        for report, titles in expected.items():
+            found = titles_of(browser.open(report))
+            assert found == [title if isinstance(title, tuple) else (title, "t [s]") for title in titles], found
+        found = titles_of(browser.open(load))
+        driven = [("Load factor λ", "mean displacement along the loads [m]"), ("Displacement u [m]", "t [s]")]
+        assert found == driven + [(title, "t [s]") for title in run], found
+        rows = [row.split(",") for row in (load.parent / "history.csv").read_text().splitlines()]
+        factor, q = (float(rows[-1][rows[0].index(f"load.{name}")]) for name in ("factor", "displacement"))
+        browser.find("[aria-labelledby=history] .plot").send_keys(Keys.END)
+        said = browser.text("[aria-labelledby=history] .legend").replace("−", "-")
+        assert f"load.factor {factor:.6g}" in said and f"{q:.5e}".replace("e-0", "e-") in said, (said, factor, q)
+        found = titles_of(browser.open(newton))
+        titles = ["Force [N]", "Contact area [m²]", "Penetration [cells]", run[0], "Error bound ‖u − u*‖/‖u‖"]  # no energy changes
+        assert found == [(title, "steps of the solver") for title in titles], found
+        assert browser.log() == []
+
+
+@claim("a plot of the load in a report shows all of its way where the displacement goes back")
+def _(folder):
+    way = ("load.displacement='2e-4*min(t, 2-t)'", "stop.time=1.6", "stop.load_growth=0")
+    with Browser() as browser:
+        browser.open(report_of(folder / "out", "run", "footing_limit", *way))
+        plot = browser.find("[aria-labelledby=history] .plot")
+        labels = [label.text for label in plot.find_elements(By.CSS_SELECTOR, ".dygraph-axis-label-x")]
+        assert max(float(label.replace("−", "-")) for label in labels) > 1.4e-4, labels
+        plot.send_keys(Keys.END)
+        said = browser.text("[aria-labelledby=history] .legend").replace("−", "-")
+        assert re.search(r"\[m\] 8\.\d+e-5", said), said
+        assert browser.log() == []
+
+
+@claim("the picture of a report shows plastic strain first where something has yielded, and tells a slope angle only if a probe asks for it")
+def _(folder):
+    settings = ("grid.cells=[60, 33]", "stop.time=8", "output.stages=[0, 8]")
+    asked = report_of(folder / "asked", "run", "slope", *settings)
+    silent = report_of(folder / "silent", "run", "slope", *settings, "probe=[]")
+    angle = json.loads((folder / "silent/summary.json").read_text())["stages"][-1]["slope_angle"]
+    assert angle is not None
+    with Browser() as browser:
+        for report, told in ((asked, True), (silent, False)):
+            browser.open(report)
+            assert (f"slope angle {angle:.3g}°" in browser.text("output")) == told, browser.text("output")
+            headings = browser.run("return [...document.querySelectorAll('h3, .facts th')].map((one) => one.textContent)")
+            assert any("lope angle" in heading for heading in headings) == told, headings
+            assert browser.run("return document.querySelector('select').selectedOptions[0].textContent") == "plastic strain"
+        browser.open(report_of(folder / "elastic", "run", "oedometer"))
+        assert browser.run("return document.querySelector('select').selectedOptions[0].textContent") == "displacement |u| [m]"
+
+
+@claim("the faces of a body in space are lit in a report: its top is the brightest, in a colour near that of the bar")
+def _(folder):
+    with Browser() as browser:
+        browser.open(report_of(folder / "cube", "run", "oedometer"))
+        browser.find("select").send_keys("u.x")  # it is 0
+        until(lambda: "u.x" in browser.text("canvas.picture ~ p ~ p"))
+        # Shares of the box that the body takes on the canvas: the middle of its top, and places on its two sides.
+        top, front, side = browser.run("""
+          const canvas = document.querySelector("canvas.picture"), c = canvas.getContext("2d");
+          const {width, height} = canvas, data = c.getImageData(0, 0, width, height).data;
+          const at = (x, y) => [...data.slice(4 * (y * width + x), 4 * (y * width + x) + 3)];
+          let box = [width, height, 0, 0];
+          for (let y = 0; y < height; ++y) for (let x = 150; x < width - 150; ++x) {
+            if (at(x, y).every((part) => part > 250)) continue;
+            box = [Math.min(box[0], x), Math.min(box[1], y), Math.max(box[2], x), Math.max(box[3], y)];
+          }
+          return [[0.5, 0.15], [0.3, 0.6], [0.8, 0.6]].map(([x, y]) =>
+            at(Math.round(box[0] + x * (box[2] - box[0])), Math.round(box[1] + y * (box[3] - box[1]))));""")
+        assert sum(top) > 1.15 * sum(front) and sum(front) > 1.1 * sum(side), (top, front, side)
+        bar = browser.run("return getComputedStyle(document.querySelector('.bar')).backgroundImage")
+        colours = [[int(part) for part in found] for found in re.findall(r"rgb\((\d+), (\d+), (\d+)\)", bar)]
+        assert min(max(abs(a - b) for a, b in zip(top, colour)) for colour in colours) < 45, (top, colours[0])
+
+
+@claim("a plot of errors in a report has thin lines of the orders beside them")
+def _(folder):
+    report = report_of(folder / "converge", "converge", "mms_bar", "grid.basis=quadratic")
+    grey = """const canvas = document.querySelector(".plot canvas"), c = canvas.getContext("2d");
+      const {width, height} = canvas, data = c.getImageData(80, 0, width - 80, height - 60).data;
+      let found = 0;
+      for (let k = 0; k < data.length; k += 4)
+        found += data[k + 3] > 80 && Math.hypot(data[k] - 0x59, data[k + 1] - 0x62, data[k + 2] - 0x6e) < 12;
+      return found;"""
+    with Browser() as browser:
+        count = browser.open(report).run(grey)
+        assert count > 500, count  # the width of the plot, twice
         assert browser.log() == []
 
 

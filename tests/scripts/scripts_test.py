@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """scripts_test.py ROOT CLAIM PROGRAM: one claim about the scripts of the source tree ROOT. PROGRAM is write_fields."""
 
+import json
 import os
 import shutil
 import sys
@@ -61,38 +62,97 @@ def _(folder):
     a_history_is_refused(folder, "\0PNG", "history.csv")
 
 
+def panels_of(*folders):
+    """{field: (label, x, lines)} of the panels that plot_history.py draws, in their order."""
+    plot_history = script_module("plot_history")
+    panels = plot_history.panels_of([plot_history.read_run(folder) for folder in folders])
+    return {field: (panel.label, panel.x_label, panel.names()) for field, panel in panels.items()}
+
+
+def written(folder, text, **summary):
+    """The folder of a run with this history, drawn without a word of complaint."""
+    folder.mkdir(exist_ok=True)
+    (folder / "history.csv").write_text(text)
+    (folder / "summary.json").write_text(json.dumps(summary))
+    result = call(ROOT / "scripts/plot_history.py", folder)
+    assert result.returncode == 0 and not result.stderr and (folder / "history.png").stat().st_size > 0, result
+    return folder
+
+
 @claim("a history without probes is drawn by its residual and kinetic energy")
 def _(folder):
-    (folder / "history.csv").write_text("t,steps,rhs_evaluations,residual,kinetic_energy\n0,0,0,1,0\n1,9,9,nan,inf\n")
-    result = call(ROOT / "scripts/plot_history.py", folder)
-    assert result.returncode == 0 and (folder / "history.png").stat().st_size > 0, result
-    plot_history = script_module("plot_history")
-    assert list(plot_history.curves([plot_history.read_run(folder)])) == ["residual", "kinetic_energy"]
+    header = "t,steps,rhs_evaluations,residual,kinetic_energy\n"
+    written(folder, header + "0,0,0,1,0\n1,9,9,nan,inf\n")  # neither varies: both are drawn
+    assert list(panels_of(folder)) == ["residual", "energy"]
+    assert list(panels_of(written(folder, header + "0,0,0,1,0\n1,9,9,0.5,0\n"))) == ["residual"]
 
 
-PLANE = """t,steps,rhs_evaluations,residual,kinetic_energy,toe.u.x,toe.u.y,the.crest.u.x,toe.stress.xy,\
-surface.slope_angle,left.normal,left.shear,inertia.external_work,inertia.kinetic_over_work
-0,0,1,1,0,0,0,0,-1,nan,5,1,0,nan
-1,10,11,1,0,1,2,3,4,31.5,-5,2,10,1e-3
+PLANE = """t,steps,rhs_evaluations,residual,kinetic_energy,toe.stress.xy,toe.hardness,toe.u.x,toe.u.y,the.crest.u.x,\
+surface.slope_angle,left.normal,left.shear,back.shear.y,base.reaction_x,base.reaction_y,punch.force_y,punch.moment_z,\
+inertia.external_work,inertia.kinetic_over_work
+0,0,1,1,0,-1,7,0,0,0,nan,5,1,0,0,1,0,-1200,0,nan
+1,10,11,0.1,0,4,8,1,2,3,31.5,-5,2,1,0,2,3,-1200.0000001,10,1e-3
 """
 
 
-@claim("a history of the plane has a panel a kind of field, with a line a component")
+@claim("a history has a panel a kind of field, with its unit and a line a component: probes, forces, residual and energies, and none of what is constant")
 def _(folder):
-    (folder / "history.csv").write_text(PLANE)
-    result = call(ROOT / "scripts/plot_history.py", folder)
-    assert result.returncode == 0 and not result.stderr and (folder / "history.png").stat().st_size > 0, result
+    panels = panels_of(written(folder, PLANE))
+    assert list(panels.items()) == [
+        ("u", ("displacement $u$ [m]", "time $t$ [s]", ["toe x", "toe y", "the.crest x"])),
+        ("stress", ("stress [Pa]", "time $t$ [s]", ["toe xy"])),
+        ("hardness", ("hardness", "time $t$ [s]", ["toe"])),
+        ("force", ("force [N]", "time $t$ [s]", ["left normal", "left shear", "back shear y", "punch y"])),
+        ("reaction", ("reaction [N]", "time $t$ [s]", ["base x", "base y"])),
+        ("residual", ("residual $‖F − R‖/‖F‖$", "time $t$ [s]", [])),
+        ("energy", ("energy [J]", "time $t$ [s]", ["external work"])),
+    ], panels
+
+
+@claim("a history whose time stands still is drawn against the steps of the solver")
+def _(folder):
+    written(folder, "t,steps,rhs_evaluations,residual,kinetic_energy,p6.u\n1,0,1,1,0,0\n1,2,3,1e-3,0,2\n")
+    panels = panels_of(folder)
+    assert {name: panel[1] for name, panel in panels.items()} == dict.fromkeys(["u", "residual"], "steps of the solver"), panels
+
+
+LOADED = """t,steps,rhs_evaluations,residual,kinetic_energy,load.factor,load.displacement
+0,0,1,0,0,0,0
+1,10,11,1e-3,1e-3,3,{q}
+2,20,21,2e-3,1e-4,5,0.004
+"""
+
+
+@claim("where a displacement drives the loads their factor against it is the first panel, of two runs as of one")
+def _(folder):
+    runs = [written(folder / name, LOADED.format(q=q), load={"factor": 5}) for name, q in (("a", 0.001), ("b", 0.002))]
+    for some in (runs[:1], runs):
+        panels = panels_of(*some)
+        assert list(panels) == ["load", "residual", "energy"], panels
+        assert panels["load"] == (r"load factor $\lambda$", "mean displacement along the loads [m]", []), panels
     plot_history = script_module("plot_history")
-    panels = plot_history.curves([plot_history.read_run(folder)])
-    assert {field: plot_history.lines_of(panel) for field, panel in panels.items()} == {
-        "u": ["toe x", "toe y", "the.crest x"],
-        "stress": ["toe xy"],
-        "slope_angle": ["surface"],
-        "force": ["left normal", "left shear"],
-        "external_work": ["inertia"],
-        "kinetic_over_work": ["inertia"],
-    }
-    assert list(panels)[:2] == ["u", "stress"] and panels["force"][1][2] == "left.shear"
+    plot_history.draw(*plot_history.find_runs(runs), folder / "both.png")
+    axis = plot_history.plt.gcf().axes[0]
+    assert [line.get_xydata().tolist() for line in axis.lines] == [[[0, 0], [q, 3], [0.004, 5]] for q in (0.001, 0.002)]
+
+
+DRIVEN = """t,steps,rhs_evaluations,residual,kinetic_energy,plate.normal,plate.shear,punch.force_x,punch.force_y,\
+plate.motion,punch.motion_x,punch.motion_y
+0,0,1,1,0,0,0,0,0,0,0,0
+1,9,9,2,0,5,1,1,-7,-0.1,0.1,-0.3
+"""
+
+
+@claim("the force of what is driven is drawn against its motion, along the axis of its longest way, before all others")
+def _(folder):
+    panels = panels_of(written(folder, DRIVEN))
+    assert list(panels)[:3] == ["plate", "punch", "force"] and "motion" not in panels, panels
+    assert panels["plate"] == ("force of plate [N]", "its displacement [m]", [])
+    assert panels["punch"] == ("force of punch along y [N]", "its displacement along y [m]", [])
+    plot_history = script_module("plot_history")
+    plot_history.draw(*plot_history.find_runs([folder]), folder / "a.png")
+    axis = plot_history.plt.gcf().axes[1]
+    assert axis.lines[0].get_xydata().tolist() == [[0, 0], [-0.3, -7]] and axis.get_xlim() == (0, -0.3)
 
 
 @claim("scripts/run without a scene says how to use it, with status 2")

@@ -40,7 +40,8 @@ function logTicks(from, to, pixels, apart) {
   return ticks.length > 1 ? ticks : [{v: from, label: short(from, 3)}, {v: to, label: short(to, 3)}];
 }
 
-// what: {title, names, rows: [[x, …]], x: name of x, log, logX, points, wide, goal, choosesLog, onZoom}
+// what: {title, names, rows: [[x, …]], x: name of x, winds: x may go back, log, logX, points, wide, goal, choosesLog,
+// slopes: [{order, from, to, at}], lines below at·x^order between two x, onZoom}
 function chart(parent, what) {
   const id = `chart-${document.querySelectorAll(".chart").length}`;
   const plot = element("div", {class: "plot", tabindex: 0, role: "group", "aria-roledescription": "plot",
@@ -60,11 +61,13 @@ function chart(parent, what) {
   // What a logarithm cannot show is left out.
   const shown = () => rows.filter((row) => row[0] > 0 || !what.logX)
     .map((row) => row.map((value, k) => (Number.isFinite(value) && (value > 0 || !log || k === 0) ? value : null)));
-  // On a logarithmic axis empty rows at both ends keep markers away from the border.
+  // Empty rows at both ends tell how far x goes where it goes back; on a logarithmic axis they keep markers away from the border.
+  const isPadded = Boolean(what.logX || what.winds);
   function file() {
     const inside = shown(), empty = names.map(() => null);
-    if (!what.logX || !inside.length) return inside;
-    const [from, to] = [inside[0][0], inside.at(-1)[0]], room = Math.max(1.05, (to / from) ** 0.02);
+    if (!isPadded || !inside.length) return inside;
+    const [from, to] = [Math.min, Math.max].map((end) => inside.reduce((found, row) => end(found, row[0]), inside[0][0]));
+    const room = what.logX ? Math.max(1.05, (to / from) ** 0.02) : 1;
     return [[from / room, ...empty], ...inside, [to * room, ...empty]];
   }
   const series = () => Object.fromEntries(names.map((name, k) => [name, {
@@ -85,7 +88,7 @@ function chart(parent, what) {
     labels: [what.x, ...names], series: series(), logscale: log, legend: "never", xlabel: what.x, xLabelHeight: 20,
     connectSeparatedPoints: true, drawPoints: Boolean(what.points), pointSize: 4, highlightCircleSize: 4, strokeWidth: 2,
     gridLineColor: ink("line"), axisLineColor: ink("faint"), rightGap: 12, labelsKMB: false,
-    xRangePad: what.points && !what.logX ? 10 : 0, yRangePad: 8,
+    xRangePad: what.points && !what.logX ? 10 : 0, yRangePad: what.slopes ? 30 : 8,
     axes: {x: {logscale: Boolean(what.logX), axisLabelFormatter: (value) => short(value), pixelsPerLabel: 70,
                ...(what.logX ? {ticker: (from, to, pixels) => logTicks(from, to, pixels, 60)} : {})},
            y: {axisLabelFormatter: (value) => short(value), axisLabelWidth: 64, pixelsPerLabel: 34,
@@ -95,6 +98,14 @@ function chart(parent, what) {
     unhighlightCallback: () => read(null),
     zoomCallback: () => { if (what.onZoom) what.onZoom(graph); },
     underlayCallback: (c, area, g) => {
+      for (const {order, from, to, at} of what.slopes || []) {
+        const below = 12;  // pixels
+        const [x, y] = [(size) => area.x + area.w * g.toPercentXCoord(size), (size) => g.toDomYCoord(at * size ** order) + below];
+        c.save(); c.strokeStyle = c.fillStyle = ink("faint"); c.lineWidth = 1;
+        c.beginPath(); c.rect(area.x, area.y, area.w, area.h); c.clip();
+        c.beginPath(); c.moveTo(x(from), y(from)); c.lineTo(x(to), y(to)); c.stroke();
+        c.font = "12px sans-serif"; c.textAlign = "right"; c.fillText(short(order, 3), x(to), y(to) + 14); c.restore();
+      }
       if (!(what.goal > 0)) return;
       const y = g.toDomYCoord(what.goal);
       if (!(y >= area.y && y <= area.y + area.h)) return;
@@ -112,7 +123,7 @@ function chart(parent, what) {
     if (what.onZoom) what.onZoom(graph);
   }
   plot.addEventListener("keydown", (event) => {
-    const first = what.logX ? 1 : 0, last = graph.numRows() - 1 - first, step = event.shiftKey ? Math.ceil(last / 20) : 1;
+    const first = isPadded ? 1 : 0, last = graph.numRows() - 1 - first, step = event.shiftKey ? Math.ceil(last / 20) : 1;
     const to = {ArrowRight: selected === null ? first : selected + step, ArrowLeft: selected === null ? last : selected - step,
                 Home: first, End: last}[event.key];
     if (to !== undefined && last >= first) {
@@ -150,6 +161,87 @@ function chart(parent, what) {
 
 // --- of history.csv ---
 
+// What a column is called, and its unit, by the last part of its name; probes in this order, and others after them.
+const PROBED = {
+  u: ["Displacement u", "m"], v: ["Velocity v", "m/s"], strain: ["Strain", ""], stress: ["Stress", "Pa"],
+  effective_stress: ["Effective stress", "Pa"], pore_pressure: ["Pore pressure", "Pa"], plastic_strain: ["Plastic strain", ""],
+  pc: ["Preconsolidation pressure pc", "Pa"], slope_angle: ["Slope angle", "°"], volume: ["Volume", "m³"],
+  momentum: ["Momentum", "kg m/s"], angular_momentum: ["Angular momentum", "kg m²/s"],
+};
+const OF_FORCES = {
+  force: ["Force", "N"], reaction: ["Reaction", "N"], moment: ["Moment", "N m"], displacement: ["Displacement of the rigid body", "m"],
+  contact_area: ["Contact area", "m²"], penetration: ["Penetration", "cells"], slipping: ["Share of the contact that slips", ""],
+};
+const TOGETHER = {normal: "force", shear: "force"};  // of a wall
+const MOST_LINES = 6;  // as many as can be told apart
+
+// "toe.u.x" → {name: "toe", field: "u", component: "x"}, and so for "punch.force_y".
+function partsOf(column) {
+  const found = /^(.+?)\.(?:((?:force|reaction|moment|displacement|motion)(?=_[xyz]$)|[^.]+))(?:[._]([xyz]{1,2}))?$/.exec(column);
+  return found ? {name: found[1], field: found[2], component: found[3] || ""} : {name: "", field: column, component: ""};
+}
+
+const titleOf = ([words, unit]) => words + (unit && ` [${unit}]`);
+
+// By more than rounding does.
+function isVarying(rows, k) {
+  let least = Infinity, most = -Infinity;
+  for (const row of rows) {
+    if (!Number.isFinite(row[k])) continue;
+    least = Math.min(least, row[k]); most = Math.max(most, row[k]);
+  }
+  return most - least > 1e-9 * Math.max(-least, most);
+}
+
+// Forces against the displacements that drive them: that of the loads first, then of what moves as `motion` tells.
+function drivenGroups(columns, rows) {
+  const groups = [];
+  if (columns.includes("load.displacement")) {
+    groups.push({title: "Load factor λ", x: "load.displacement",
+                 xName: "mean displacement along the loads [m]", names: ["load.factor"]});
+  }
+  const extent = (column) => {
+    const values = rows.map((row) => row[columns.indexOf(column)]).filter(Number.isFinite);
+    return values.reduce((most, value) => Math.max(most, value), -Infinity) - values.reduce((least, value) => Math.min(least, value), Infinity);
+  };
+  const motions = columns.filter((column) => partsOf(column).field === "motion" && isVarying(rows, columns.indexOf(column)));
+  for (const motion of motions) {
+    const {name, component} = partsOf(motion), along = component && ` along ${component}`, end = component && `_${component}`;
+    if (motions.some((other) => partsOf(other).name === name && extent(other) > extent(motion))) continue;  // along its longest way
+    const names = [`${name}.normal`, `${name}.force${end}`, `${name}.reaction${end}`].filter((force) => columns.includes(force));
+    if (names.length) groups.push({title: `Force of ${name}${along} [N]`, x: motion, xName: `its displacement${along} [m]`, names});
+  }
+  return groups;
+}
+
+// Plots in the order in which a reader asks, figures of one kind in one; what never changes has none.
+function historyGroups(columns, rows) {
+  const has = (name) => columns.includes(name), energies = ["kinetic_energy", "inertia.external_work"].filter(has);
+  const own = [
+    {title: "Residual ‖F − R‖/‖F‖", names: ["residual"], log: true, goal: "residual"},
+    {title: "Error bound ‖u − u*‖/‖u‖", names: ["distance"].filter(has), log: true, goal: "distance"},
+    {title: "Energies [J]", names: energies, log: true},
+    {title: "Kinetic energy over external work", names: ["inertia.kinetic_over_work"].filter(has), log: true},
+  ];
+  const used = new Set(["t", "steps", "rhs_evaluations", "load.factor", "load.displacement", ...own.flatMap((group) => group.names)]);
+  const kinds = new Map(Object.keys(PROBED).map((kind) => [kind, []])), forces = new Map(Object.keys(OF_FORCES).map((kind) => [kind, []]));
+  for (const name of columns) {
+    const {field} = partsOf(name), kind = TOGETHER[field] || field;
+    if (used.has(name) || field === "motion") continue;
+    const of = forces.has(kind) ? forces : kinds;
+    if (!of.has(kind)) of.set(kind, []);
+    of.get(kind).push(name);
+  }
+  const groups = drivenGroups(columns, rows);
+  for (const [kind, names] of [...kinds, ...forces]) {
+    const title = titleOf(PROBED[kind] || OF_FORCES[kind] || [kind.replaceAll("_", " "), ""]);
+    for (let k = 0; k < names.length; k += MOST_LINES) groups.push({title, names: names.slice(k, k + MOST_LINES)});
+  }
+  groups.push(...own);
+  const varying = groups.filter(({names}) => names.some((name) => isVarying(rows, columns.indexOf(name))));
+  return varying.length ? varying : groups.filter(({names}) => names.length);
+}
+
 function historyCharts(page, history, goals) {
   const columns = history.columns;
   const rows = history.rows.split("\n").filter((line) => line).map((line) => line.split(",").map(Number));
@@ -161,7 +253,6 @@ function historyCharts(page, history, goals) {
   made.append(element("p", {class: "faint"}, "Drag over a plot to zoom, double-click to see all of it again. With the keyboard: " +
     "Tab to a plot, left and right read values off, plus and minus zoom, Escape shows all." +
     (rows.length < history.of ? ` Of ${short(history.of)} rows in history.csv ${short(rows.length)} are drawn: the extremes of each column among their neighbours.` : "")));
-  const groups = historyGroups(columns);
   const grid = element("div", {class: "charts"});
   made.append(grid);
   const all = [];
@@ -174,38 +265,15 @@ function historyCharts(page, history, goals) {
     for (const other of all) if (other.graph !== zoomed) other.graph.updateOptions({dateWindow: window});
     follows = false;
   };
-  for (const {title, names, log, goal} of groups) {
-    const numbers = names.map((name) => columns.indexOf(name));
-    const some = rows.map((row) => [row[0], ...numbers.map((k) => row[k])]);
-    if (!some.some((row) => row.slice(1).some((value) => Number.isFinite(value) && (value > 0 || !log)))) continue;
-    all.push(chart(grid, {title, x: "t [s]", names, rows: some, log, choosesLog: true, goal: goal && goals[goal], onZoom}));
+  const isAtOnce = !isVarying(rows, 0);  // of a static solver, whose time stands still
+  for (const {title, x, xName, names, log = false, goal} of historyGroups(columns, rows)) {
+    const base = columns.indexOf(x || (isAtOnce ? "steps" : "t")), numbers = names.map((name) => columns.indexOf(name));
+    const some = rows.map((row) => [row[base], ...numbers.map((k) => row[k])]).filter((row) => Number.isFinite(row[0]));
+    const drawn = some.flatMap((row) => row.slice(1)).filter((value) => Number.isFinite(value) && (value > 0 || !log));
+    if (!drawn.length) continue;
+    const [least, most] = drawn.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]);
+    const plot = {title, names, rows: some, log: log && most > 10 * least, choosesLog: true, goal: goal && goals[goal]};
+    if (x) chart(grid, {...plot, x: xName, winds: true});
+    else all.push(chart(grid, {...plot, x: isAtOnce ? "steps of the solver" : "t [s]", onZoom}));
   }
-}
-
-const UNITS = {u: "m", v: "m/s", stress: "Pa", strain: "", plastic_strain: "", reaction: "N", reaction_x: "N", reaction_y: "N",
-               reaction_z: "N", moment_x: "N m", moment_y: "N m", moment_z: "N m", slope_angle: "°", normal: "N", shear: "N",
-               volume: "m³"};
-
-// Figures of one kind share a plot: they have one unit.
-function historyGroups(columns) {
-  const groups = [{title: "Residual ‖F − R‖/‖F‖", names: ["residual"], log: true, goal: "residual"}];
-  if (columns.includes("distance")) groups.push({title: "Error bound ‖u − u*‖/‖u‖", names: ["distance"], log: true, goal: "distance"});
-  const energies = ["kinetic_energy", "inertia.external_work"].filter((name) => columns.includes(name));
-  groups.push({title: "Energies [J]", names: energies, log: true});
-  if (columns.includes("inertia.kinetic_over_work"))
-    groups.push({title: "Kinetic energy over external work", names: ["inertia.kinetic_over_work"], log: true});
-  const used = new Set(["t", "steps", "rhs_evaluations", "residual", "distance", "inertia.kinetic_over_work", ...energies]);
-  const kinds = new Map();
-  for (const name of columns) {
-    if (used.has(name)) continue;
-    const kind = name.slice(name.indexOf(".") + 1);
-    if (!kinds.has(kind)) kinds.set(kind, []);
-    kinds.get(kind).push(name);
-  }
-  for (const [kind, names] of kinds) {
-    const unit = UNITS[kind.split(".")[0]] ?? "";
-    for (let k = 0; k < names.length; k += 6)  // as many as can be told apart
-      groups.push({title: `${kind.replaceAll("_", " ")}${unit && ` [${unit}]`}`, names: names.slice(k, k + 6), log: false});
-  }
-  return groups;
 }

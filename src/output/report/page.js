@@ -180,7 +180,8 @@ function showRun(data, page) {
   const s = data.summary;
   runVerdict(page, s, data.goals);
   const pictures = data.picture && section(page, "The body", "body");
-  if (pictures) bodyPicture(pictures, data.picture, s.stages);
+  const asksForSlope = Object.values(s.probes).some((fields) => "slope_angle" in fields);
+  if (pictures) bodyPicture(pictures, data.picture, asksForSlope ? s.stages : []);
   if (data.lacks_memory) page.append(element("p", {}, "No memory was left for a picture of the body."));
   if (data.history) historyCharts(page, data.history, data.goals);
   runFacts(page, s);

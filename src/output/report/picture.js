@@ -16,12 +16,16 @@ function numbersOf(text, min, max) {
 // Viridis [van der Walt, Smith 2015]: the lighter, the larger, also where there is no colour.
 const VIRIDIS = ["440154", "482878", "3e4989", "31688e", "26828e", "1f9e89", "35b779", "6ece58", "b5de2b", "fde725"]
   .map((hex) => [0, 2, 4].map((k) => parseInt(hex.slice(k, k + 2), 16)));
-const SHADES = Array.from({length: 64}, (_, k) => {
+const SHADE_PARTS = Array.from({length: 64}, (_, k) => {
   const at = k / 63 * (VIRIDIS.length - 1), low = Math.min(Math.floor(at), VIRIDIS.length - 2);
-  return `rgb(${VIRIDIS[low].map((part, c) => Math.round(part + (VIRIDIS[low + 1][c] - part) * (at - low))).join(",")})`;
+  return VIRIDIS[low].map((part, c) => Math.round(part + (VIRIDIS[low + 1][c] - part) * (at - low)));
 });
+const SHADES = SHADE_PARTS.map((parts) => `rgb(${parts.join(",")})`);
+const UNKNOWN = [153, 153, 153];  // the grey of what is no number
+const LIGHTS = 24;                // levels of brightness
 
-// The fields that can be shown: {name, of: (moment) → values}; what is computed of components is kept.
+// The fields that can be shown: {name, of: (moment) → values}; what is computed of components is kept. Where something has
+// yielded, the plastic strain is the first.
 function fieldsOf(picture, x) {
   const names = picture.fields.map((field) => field.name), dim = picture.dim;
   const decoded = picture.moments.map(() => new Map());
@@ -44,7 +48,12 @@ function fieldsOf(picture, x) {
   const list = [];
   if (dim > 1) list.push({name: "displacement |u| [m]", of: (m) => computed(m, "|u|", u, length)});
   for (const name of u) list.push({name: `${name} [m]`, of: (m) => stored(m, name)});
-  for (const name of names.slice(u.length + 1 + stress.length)) list.push({name: name.replaceAll("_", " "), of: (m) => stored(m, name)});
+  const yields = picture.fields.some((field) => field.name === "plastic_strain" && field.max > 0);
+  for (const name of names.slice(u.length + 1 + stress.length)) {
+    const field = {name: name.replaceAll("_", " "), of: (m) => stored(m, name)};
+    if (yields && name === "plastic_strain") list.unshift(field);
+    else list.push(field);
+  }
   if (dim > 1) {
     const normal = ["stress.xx", "stress.yy", "stress.zz"], shear = stress.filter((name) => !normal.includes(name));
     list.push({name: "mean stress [Pa]", of: (m) => computed(m, "mean", normal, ([a, b, c], p) => (a[p] + b[p] + c[p]) / 3)});
@@ -57,13 +66,14 @@ function fieldsOf(picture, x) {
   return {list, u: (m) => u.map((name) => stored(m, name))};
 }
 
-const stageWords = (picture, stages, m) => {
-  const t = picture.moments[m].t, stage = stages.find((one) => one.t === t);
+const stageWords = (picture, slopes, m) => {
+  const t = picture.moments[m].t, slope = slopes.find((one) => one.t === t);
   return `t = ${short(t, 5)} s, ${m + 1} of ${picture.moments.length}` +
-    (stage && stage.slope_angle !== null ? `, slope angle ${short(stage.slope_angle, 3)}°` : "");
+    (slope && slope.slope_angle !== null ? `, slope angle ${short(slope.slope_angle, 3)}°` : "");
 };
 
-function bodyPicture(parent, picture, stages) {
+// slopes: [{t, slope_angle}] of the stages, where the scene asks for that angle.
+function bodyPicture(parent, picture, slopes = []) {
   if (!picture.moments.length || !picture.drawn) return;
   const x = picture.x.map((axis) => numbersOf(axis.values, axis.min, axis.max));
   const {list, u} = fieldsOf(picture, x);
@@ -77,7 +87,7 @@ function bodyPicture(parent, picture, stages) {
   parent.append(tools);
   const draw = (picture.dim === 1 ? linePicture : pointPicture)(parent, picture, {x, u, list}, tools);
   const update = () => {
-    const m = Number(slider.value), words = stageWords(picture, stages, m);
+    const m = Number(slider.value), words = stageWords(picture, slopes, m);
     said.textContent = words;
     slider.setAttribute("aria-valuetext", words);
     draw(m, Number(choice.value));
@@ -91,6 +101,7 @@ function bodyPicture(parent, picture, stages) {
     words.push(`${short(picture.drawn)} of ${short(picture.points)} material points are drawn` +
       (picture.dim === 3 ? ", those at the surface." : ", evenly chosen, so that this file stays small."));
   }
+  if (picture.dim === 3) words.push("Light falls on the body from the eye, a little from above: what turns away is darker than its colour in the bar.");
   words.push("Numbers are drawn with three digits; fields.h5, where the scene asks for stages, and the probes in history.csv have all of them.");
   parent.append(element("p", {class: "faint"}, words.join(" ")));
 }
@@ -166,6 +177,29 @@ function pointPicture(parent, picture, body, tools) {
     return limits.get(k);
   }
 
+  const normals = new Map();  // of each moment
+  function normalsAt(m) {
+    if (!normals.has(m)) {
+      const u = body.u(m), places = body.x.map((axis, k) => axis.map((at, p) => at + u[k][p]));
+      normals.set(m, normalsOf(places, picture.x, picture.mark.map((length, k) => length * (sizes ? picture.sizes[k].max : 1))));
+    }
+    return normals.get(m);
+  }
+
+  // A vector along the screen, upwards, and towards the eye.
+  function turned(x, y, z) {
+    const [ca, sa, ce, se] = [Math.cos(view.azimuth), Math.sin(view.azimuth), Math.cos(view.elevation), Math.sin(view.elevation)];
+    const depth = ca * z - sa * x;
+    return [ca * x + sa * z, ce * y - se * depth, se * y + ce * depth];
+  }
+
+  // How bright each point is, in LIGHTS levels.
+  function lightOn(m) {
+    const [x, y, z] = normalsAt(m), levels = new Uint8Array(count);
+    for (let p = 0; p < count; ++p) levels[p] = Math.round((LIGHTS - 1) * brightness(...turned(x[p], y[p], z[p])));
+    return levels;
+  }
+
   // Where the points are drawn: along the screen, and towards the eye.
   function seen(m, enlarged) {
     const u = body.u(m), places = [new Float32Array(count), new Float32Array(count), new Float32Array(count)];
@@ -227,12 +261,23 @@ function pointPicture(parent, picture, body, tools) {
     const shade = (p) => Number.isFinite(values[p]) ? Math.max(0, Math.min(63, Math.round(63 * (to > from ? (values[p] - from) / (to - from) : 0)))) : -1;
     if (inSpace) order.sort((a, b) => depth[a] - depth[b]);
     else order.sort((a, b) => shade(a) - shade(b));
+    const light = inSpace ? lightOn(now.m) : null, paints = new Map();
+    // The number of a paint; without light that of its shade.
+    const paintOf = (p) => light ? LIGHTS * (shade(p) + 1) + light[p] : shade(p);
+    function styleOf(number) {
+      if (!light) return number < 0 ? "#999999" : SHADES[number];
+      if (!paints.has(number)) {
+        const of = Math.floor(number / LIGHTS) - 1;
+        paints.set(number, inLight(of < 0 ? UNKNOWN : SHADE_PARTS[of], (number % LIGHTS) / (LIGHTS - 1)));
+      }
+      return paints.get(number);
+    }
     let paint = null;
     c.save();
     c.setTransform(1, 0, 0, 1, 0, 0);  // whole pixels, or light would shine through between the marks
     for (const p of order) {
-      const wanted = shade(p);
-      if (wanted !== paint) c.fillStyle = wanted < 0 ? "#999999" : SHADES[wanted];
+      const wanted = paintOf(p);
+      if (wanted !== paint) c.fillStyle = styleOf(wanted);
       paint = wanted;
       if (sizes) half = halfOf(p);
       const x = toX(X[p]), y = toY(Y[p]), left = Math.floor((x - half[0]) * ratio), top = Math.floor((y - half[1]) * ratio);

@@ -137,10 +137,26 @@ function showComparison(data, page) {
   sceneText(page, data.scene);
 }
 
+const SIZES = {h: "h [m]", points: "1/points per cell", step: "step [s]", motion: "max_motion [cells]"};  // what is refined
+
 function orderWords(order) {
   if (!order) return "no order is known";
   return `order ${order.order.toFixed(2)}` + (order.low === null ? "" : ` (${order.low.toFixed(2)} to ${order.high.toFixed(2)}, 95 %)`) +
     (order.theory === null ? "" : `, in theory ${short(order.theory, 3)}`);
+}
+
+// Below the smallest errors that have it: each order that theory knows, or else the whole one nearest to what was measured.
+// lines: [[name, series, quantity, [[size, error]…]]]
+function orderLines(lines) {
+  const lowest = new Map();
+  for (const [, series, quantity, points] of lines) {
+    if (points.length < 2) continue;
+    const order = series.orders[quantity], [[x1, y1], [x2, y2]] = points.slice(-2);
+    const beside = order && order.theory ? order.theory : Math.max(1, Math.round(order ? order.order : Math.log(y1 / y2) / Math.log(x1 / x2)));
+    if (!lowest.has(beside) || points.at(-1)[1] < lowest.get(beside).at(-1)[1]) lowest.set(beside, points);
+  }
+  return [...lowest].map(([order, points]) => ({
+    order, from: points.at(-1)[0], to: points[0][0], at: points.reduce((least, [x, y]) => Math.min(least, y / x ** order), Infinity)}));
 }
 
 function showConvergence(data, page) {
@@ -165,19 +181,19 @@ function showConvergence(data, page) {
   const plots = all.length === 1 ? [{title: "Errors", lines: quantities.map((name) => [name, all[0], name])}]
                                  : quantities.map((name) => ({title: `Error of ${name}`, lines: all.map((series) => [called(series), series, name])}));
   for (const {title, lines} of plots) {
-    const some = lines.map(([label, series, name]) => [label, series.quantities[name] ?
+    const some = lines.map(([label, series, name]) => [label, series, name, series.quantities[name] ?
       series.levels.map((level, k) => [level.size, series.quantities[name].errors[k]]).filter(([x, y]) => x > 0 && y > 0) : []])
-      .filter(([, points]) => points.length);
+      .filter(([, , , points]) => points.length);
     if (!some.length) continue;
-    chart(holder, {title, x: size === "h" ? "h [m]" : size, names: some.map(([label]) => label), rows: rowsOf(some.map(([, points]) => points)),
-                   log: true, logX: true, points: true, wide: plots.length === 1});
+    chart(holder, {title, x: SIZES[size] || size, names: some.map(([label]) => label), rows: rowsOf(some.map(([, , , points]) => points)),
+                   slopes: orderLines(some), log: true, logX: true, points: true, wide: plots.length === 1});
   }
   if (!holder.children.length) holder.append(element("p", {}, "No error is known on any level."));
 
   const rows = all.flatMap((series) => series.levels.map((level, k) => ({series, level, k})));
   const columns = [
     {name: "level", of: (row) => row.k + 1},
-    {name: size === "h" ? "h [m]" : size, of: (row) => row.level.size},
+    {name: SIZES[size] || size, of: (row) => row.level.size},
     {name: "points", of: (row) => row.level.points},
     {name: "evaluations", of: (row) => row.level.evaluations},
     {name: "time", of: (row) => row.level.wall_s, text: (row) => seconds(row.level.wall_s)},
@@ -240,7 +256,7 @@ function showSafety(data, page) {
   if (data.mechanism) {
     const picture = section(page, `The mechanism at ${short(data.mechanism.factor)}`, "mechanism");
     picture.append(element("p", {}, "What moves since the equilibrium with the first factor; its size is that of the time it was followed."));
-    bodyPicture(picture, data.mechanism.picture, []);
+    bodyPicture(picture, data.mechanism.picture);
   }
   const model = section(page, "Model", "model");
   facts(model, [["Wall time", seconds(study.wall_s)], ["Width asked for", short(study.width)]]);
