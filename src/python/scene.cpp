@@ -23,7 +23,13 @@ void bind_scene(py::module_& module) {
       .def_readonly("text", &Scene::text, "As TOML, without the overrides.")
       .def_readonly("overrides", &Scene::overrides, "What was laid over it, \"key=value\" each.")
       .def_property_readonly("file", [](const Scene& scene) { return scene.file.string(); })
-      .def("__repr__", [](const Scene& scene) { return "<stillpoint.Scene '" + scene.name + "'>"; });
+      .def("__repr__", [](const Scene& scene) { return "<stillpoint.Scene '" + scene.name + "'>"; })
+      .def(py::pickle(
+          [](const Scene& scene) { return py::make_tuple(scene.file.string(), scene.text, scene.overrides); },
+          [](const py::tuple& kept) {
+            return read_scene(kept[0].cast<std::string>(), kept[1].cast<std::string>(), "",
+                              kept[2].cast<std::vector<std::string>>(), catalogue());
+          }));
 
   using Overrides = std::vector<std::string>;
   const py::call_guard<py::gil_scoped_release> without_gil;

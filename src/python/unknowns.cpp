@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 
+#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include "python/bindings.hpp"
@@ -56,17 +57,22 @@ TrialState& Unknowns::trial(Simulation& now) {
   return *trial_;
 }
 
+// Calls function(phase, t, u).
+template <class Function>
+void Unknowns::at(const py::object& u, const py::object& t, const Function& function) {
+  Simulation& now = simulation().at_rest();
+  const double time = t.is_none() ? now.t() : t.cast<double>();
+  const Array given = u.is_none() ? Array(this->u()) : u.cast<Array>();
+  const ConstVec values = vector_of(given, now.system().size(), "u");
+  simulation().without_gil([&](Simulation& still) { function(still.parts().phase, time, values); });
+}
+
 // Calls function(phase, t, u, out), out: (n), and returns out as an array.
 template <class Function>
 Array Unknowns::evaluate(const py::object& u, const py::object& t, const Function& function) {
-  Simulation& now = simulation().at_rest();
-  const std::size_t n = now.system().size();
-  const double at = t.is_none() ? now.t() : t.cast<double>();
-  const Array given = u.is_none() ? Array(this->u()) : u.cast<Array>();
-  const ConstVec values = vector_of(given, n, "u");
-  Array result(static_cast<py::ssize_t>(n));
-  const Vec out(result.mutable_data(), n);
-  simulation().without_gil([&](Simulation& still) { function(still.parts().phase, at, values, out); });
+  Array result(static_cast<py::ssize_t>(size()));
+  const Vec out(result.mutable_data(), size());
+  at(u, t, [&](const LagrangianPhase& phase, double time, ConstVec values) { function(phase, time, values, out); });
   return result;
 }
 
@@ -92,9 +98,24 @@ Array Unknowns::residual(const py::object& u, const py::object& t) {
   return Q;
 }
 
-Array Unknowns::mass_product(const Array& x) {
+SparseMatrix Unknowns::tangent(const py::object& u, const py::object& t, bool elastic) {
+  SparseMatrix K;
+  at(u, t, [&](const LagrangianPhase& phase, double time, ConstVec values) {
+    K = phase.tangents().matrix(elastic ? Tangent::elastic : Tangent::consistent, time, values);
+  });
+  return K;
+}
+
+Simulation& Unknowns::with_mass() {
   Simulation& now = simulation().at_rest();
   if (now.system().keeps_momentum()) throw std::invalid_argument("this mass is known by its inverse alone");
+  return now;
+}
+
+SparseMatrix Unknowns::mass_matrix() { return with_mass().system().mass().matrix(); }
+
+Array Unknowns::mass_product(const Array& x) {
+  Simulation& now = with_mass();
   Array result(x.size());
   now.system().mass().apply(vector_of(x, size(), "x"), {result.mutable_data(), size()});
   return result;
@@ -136,6 +157,8 @@ void bind_unknowns(py::module_& module) {
       .def("residual", &Unknowns::residual, u, t)
       .def("internal_force", &Unknowns::internal_force, u, t)
       .def("external_force", &Unknowns::external_force, u, t)
+      .def("tangent", &Unknowns::tangent, u, t, py::arg("elastic") = false)
+      .def("mass_matrix", &Unknowns::mass_matrix)
       .def("mass_product", &Unknowns::mass_product, py::arg("x"))
       .def("mass_solve", &Unknowns::mass_solve, py::arg("b"));
   py::class_<Points>(module, "Points")

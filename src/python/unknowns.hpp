@@ -1,6 +1,8 @@
 // The unknowns and the material points of a simulation, as arrays.
 #pragma once
 
+#include <stillpoint/sparse_matrix.hpp>
+
 #include <string>
 #include <vector>
 
@@ -33,12 +35,18 @@ class Unknowns : public OfSimulation {
   Array residual(const pybind11::object& u, const pybind11::object& t);
   Array internal_force(const pybind11::object& u, const pybind11::object& t);
   Array external_force(const pybind11::object& u, const pybind11::object& t);
+  /// K = ∂R/∂u at t, (n × n); elastic: as if no point yielded, symmetric.
+  SparseMatrix tangent(const pybind11::object& u, const pybind11::object& t, bool elastic);
+  SparseMatrix mass_matrix();
   Array mass_product(const Array& x);
   Array mass_solve(const Array& b);
 
  private:
   template <class Function>
+  void at(const pybind11::object& u, const pybind11::object& t, const Function& function);
+  template <class Function>
   Array evaluate(const pybind11::object& u, const pybind11::object& t, const Function& function);
+  Simulation& with_mass();
   TrialState& trial(Simulation& simulation);
 
   std::unique_ptr<TrialState> trial_;

@@ -111,6 +111,22 @@ def _(_folder):
     assert "det f" in str(raised(ValueError, bent.unknowns.residual, -1e3 * np.arange(len(bent.unknowns))))
 
 
+@claim("the tangent is the derivative of the internal force and the mass that of mass_product, as SciPy's sparse matrices")
+def _(_folder):
+    simulation = stillpoint.Simulation("problems/neo_hookean_bar.toml").run()
+    unknowns, n = simulation.unknowns, len(simulation.unknowns)
+    K, M = unknowns.tangent(), unknowns.mass_matrix()
+    assert K.shape == M.shape == (n, n) and K.nnz < n**2
+    du = np.sin(np.arange(n) + 1.0)
+    step = 1e-6 * np.max(np.abs(unknowns.u))
+    change = (unknowns.internal_force(unknowns.u + step * du) - unknowns.internal_force(unknowns.u - step * du)) / (2 * step)
+    assert np.max(np.abs(K @ du - change)) < 1e-6 * np.max(np.abs(change)), (K @ du, change)
+    assert np.max(np.abs(M @ du - unknowns.mass_product(du))) < 1e-14 * np.max(np.abs(M @ du))
+    assert abs(K - unknowns.tangent(0 * unknowns.u)).max() > 0.01 * abs(K).max(), "K does not depend on u"
+    assert abs(unknowns.tangent(elastic=True) - K).max() == 0, "an elastic bar has another elastic tangent"
+    raised(ValueError, unknowns.tangent, np.zeros(3))
+
+
 @claim("SciPy's newton_krylov solves R(u) = F through the package")
 def _(_folder):
     from scipy.optimize import newton_krylov

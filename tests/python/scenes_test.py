@@ -4,6 +4,7 @@
 from modules import BAR, ROOT, raised, table_of  # first: finds the package
 
 import math
+import pickle
 from pathlib import Path
 
 import numpy as np
@@ -106,6 +107,16 @@ def _(_folder):
     assert read == {"a": 0.1, "b": [0, 1, 2], "c": [1, 2.5], "d": "x y", "e": True, "f": 'q"\n', "g": -math.inf}
     assert isinstance(read["e"], bool)
     assert "NoneType" in str(raised(TypeError, scene_text, {"a": None}))
+
+
+@claim("a scene that was pickled is the same scene, of a file and of a dictionary, with what was laid over it")
+def _(_folder):
+    for source in (BAR, table_of(BAR)):
+        scene = stillpoint.load(source, {"grid.cells": 6, "damping.c": 0.3})
+        again = pickle.loads(pickle.dumps(scene))
+        assert (again.file, again.text, again.overrides) == (scene.file, scene.text, scene.overrides)
+        one, other = (stillpoint.Simulation(which).run() for which in (scene, again))
+        assert len(one.unknowns) == 13 and np.array_equal(one.history, other.history), len(one.unknowns)
 
 
 @claim("what cannot be opened is told as of the command")

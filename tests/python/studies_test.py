@@ -5,6 +5,7 @@ from modules import BAR, raised, table_of  # first: finds the package
 
 import json
 import os
+import pickle
 import re
 import shutil
 import subprocess
@@ -23,6 +24,30 @@ def _(folder):
     assert summary == written and summary.status == "equilibrium" and summary.exit_status == 0
     assert (folder / "history.csv").exists() and summary.probes.p12.u == written["probes"]["p12"]["u"]
     raised(AttributeError, lambda: summary.nothing)
+
+
+@claim("figures are a table in a notebook, row by row, and the same after pickling")
+def _(_folder):
+    summary = stillpoint.run(BAR)
+    table = summary._repr_html_()
+    for key in summary:
+        assert f"<tr><th>{key}</th><td>" in table, key
+    assert "<th>status</th><td>equilibrium</td>" in table and "<th>c</th><td>0.45</td>" in table
+    assert "&lt;=" in table and "<=" not in table, "an inequality is no tag"
+    assert pickle.loads(pickle.dumps(summary)) == summary
+    assert pickle.loads(pickle.dumps(summary)).versions.stillpoint == summary.versions.stillpoint
+
+
+@claim("the history has the way of a wall, a rigid body and a support beside the forces that they take")
+def _(_folder):
+    wall = stillpoint.Simulation(stillpoint.load("problems/slope.toml", {"grid.cells": [24, 12]})).run(2).history
+    assert wall["t"][-1] == 2 and np.array_equal(wall["wall.motion"], 0.05 * wall["t"])
+    pressed = {"rigid[0].motion": ["0", "-(gap+delta)*min(t,1)"], "support[0].u": "0.001*t", "stop.time": 2}
+    history = stillpoint.Simulation(stillpoint.load("problems/ladder/pressed_plate.toml", pressed)).run().history
+    way = np.minimum(history["t"], 1)
+    assert np.array_equal(history["plate.motion_y"], -(0.005 + 0.01) * way) and history["t"][-1] == 2
+    assert np.array_equal(history["floor.motion_y"], 0.001 * history["t"]), history["floor.motion_y"]
+    assert "plate.motion_x" not in history.dtype.names, "it stays where it is along x"
 
 
 @claim("a static solver and a multigrid mass are scenes like others, with arrays")

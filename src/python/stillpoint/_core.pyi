@@ -102,6 +102,12 @@ class Unknowns:
         """R(u), likewise."""
     def external_force(self, u: Optional[ArrayLike] = ..., t: Optional[float] = ...) -> NDArray[np.float64]:
         """F(t, u), likewise."""
+    def tangent(self, u: Optional[ArrayLike] = ..., t: Optional[float] = ..., elastic: bool = ...) -> Any:
+        """K = dR/du, likewise, as scipy.sparse.csc_matrix (n × n) [N/m]; elastic: as if no point yielded, symmetric. Loads
+        that follow u have a derivative of their own, which is no part of it."""
+    def mass_matrix(self) -> Any:
+        """M as scipy.sparse.csc_matrix (n × n) [kg]. ValueError with mass.kind = "multigrid", of which the inverse alone
+        is known."""
     def mass_product(self, x: ArrayLike) -> NDArray[np.float64]:
         """M x; x: (n)."""
     def mass_solve(self, b: ArrayLike) -> NDArray[np.float64]:

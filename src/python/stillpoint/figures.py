@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,21 @@ class Figures(dict[str, Any]):
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self]
+
+    def _repr_html_(self) -> str:
+        """A table with a row a figure, for notebooks."""
+        return _html(self)
+
+
+def _html(value: Any) -> str:
+    if isinstance(value, Figures):
+        rows = (f"<tr><th>{escape(key)}</th><td>{_html(inner)}</td></tr>" for key, inner in value.items())
+        return f"<table>{''.join(rows)}</table>"
+    if isinstance(value, list) and any(isinstance(one, Figures) for one in value):
+        return "".join(map(_html, value))
+    if value is None:
+        return "not computed"
+    return escape(f"{value:.6g}" if isinstance(value, float) else str(value))
 
 
 def figures_of(value: Any) -> Any:
