@@ -7,7 +7,8 @@ and each repetition begins with another way, so that what the machine does meanw
 repetitions the fastest counts. Prints a line for each way and size, and writes DIR/beside_fem.csv, DIR/beside_fem.json (the
 orders, ratios, crossings and verdicts), DIR/beside_fem/CASE.png and DIR/beside_fem.md, with the sections of
 beside_fem_limits.py and beside_fem_threads.py if these have run into DIR before. Exit status 1 if a run has no solution,
-which leaves its place empty, 2 for bad input or without FEniCSx. The CSV file is written after each case; with --keep the
+which leaves its place empty, or, with --quick, if an error of ours is larger beside that of finite elements than it has to
+be; 2 for bad input or without FEniCSx. The CSV file is written after each case; with --keep the
 cases that it already has are not measured again. Needs build/release/stillpoint.
 """
 
@@ -28,6 +29,7 @@ from beside_fem_verdict import judged
 from scaling import best, enough, rotated
 
 QUICK_CASE, QUICK_SIZES = "lame", 2
+QUICK_LIMITS = {"quadratic/Q2 stress_l2": 1.5, "cubic/Q2 u_l2": 0.3}  # of errors at equal unknowns, where cells are cut
 
 
 def measured(options, case, way, unknowns, threads=1):
@@ -153,6 +155,12 @@ def write(options, rows, verdicts, text):
             shutil.copy(picture, ROOT / "problems/beside_fem" / picture.name)
 
 
+def beyond(limits, errors):
+    """What to say of each ratio of errors that is not within its limit."""
+    ratios = {name: errors[name]["ratio"] for name in limits}
+    return [f"{name}: {ratio:.3g}, expected at most {limits[name]}" for name, ratio in ratios.items() if not ratio <= limits[name]]
+
+
 def main():
     options, start, load = parse(), time.monotonic(), os.getloadavg()[0]
     if not fem_is_there():
@@ -171,7 +179,10 @@ def main():
     write(options, rows, verdicts, with_sections(options, text))
     missing = sum(not row.found for row in rows)
     print(f"{len(rows)} figures, {missing} missing, {time.monotonic() - start:.0f} s; {options.out / 'beside_fem.md'}")
-    return 1 if missing else 0
+    wrong = beyond(QUICK_LIMITS, verdicts["errors"][QUICK_CASE]) if options.quick and not missing else []
+    for said in wrong:
+        print(f"beside_fem: {said}", file=sys.stderr)
+    return 1 if missing or wrong else 0
 
 
 if __name__ == "__main__":
