@@ -18,7 +18,8 @@ target_compile_options(stillpoint_flags INTERFACE
   # Files that are compiled as one look like headers, in which nothing nameless should stand.
   $<$<AND:$<BOOL:${CMAKE_UNITY_BUILD}>,$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>)
 
-# What src/base/inlining.hpp asks for. gcc's own __SANITIZE_ADDRESS__ is lost with a precompiled header.
+# What src/base/inlining.hpp and some tests ask for. gcc's own __SANITIZE_ADDRESS__ is lost with a precompiled header, and
+# clang has none.
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
   target_compile_definitions(stillpoint_flags INTERFACE STILLPOINT_SANITIZED)
 endif()

@@ -50,7 +50,7 @@ TEST_CASE("formulas that are so many that they need memory are in the table, and
 }
 
 // A sanitizer's memory is its own, and more address space than a limit leaves.
-#ifndef __SANITIZE_ADDRESS__
+#ifndef STILLPOINT_SANITIZED
 namespace {
 
 double peak_of(const std::string& scene, const std::vector<std::string>& set) {

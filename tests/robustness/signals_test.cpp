@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef STILLPOINT_SANITIZED
 constexpr double soon = 10;
 #else
 constexpr double soon = 2;  // [s] of the processor's time

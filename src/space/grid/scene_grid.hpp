@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stillpoint/problem.hpp>
+#include <stillpoint/state_archive.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -55,6 +56,16 @@ Grid<Dim> grid_at(const Problem& problem, double moved) {
   }
   grid.axes[d].nodes = std::move(nodes);
   return grid;
+}
+
+/// The same for a displacement that was saved; throws StateError if no run could have followed the wall so far.
+template <int Dim>
+Grid<Dim> saved_grid_at(const Problem& problem, double moved) {
+  constexpr double largest_share = 1000;  // of the grid's own size
+  double size = 0;
+  for (std::size_t d = 0; d < Dim; ++d) size = std::max(size, problem.grid.max[d] - problem.grid.min[d]);
+  if (!(std::abs(moved) <= largest_share * size)) throw StateError("its grid has gone too far");
+  return grid_at<Dim>(problem, moved);
 }
 
 }  // namespace stillpoint

@@ -2,8 +2,6 @@
 // The rest follows from these.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -82,12 +80,8 @@ class PhaseControlOf final : public PhaseControl {
  private:
   // Restores the grid from the saved displacement of the followed wall, and checks the order of the saved points.
   void take_saved_grid() {
-    constexpr double largest_share = 1000;  // of the grid's own size; no run could follow a wall further
     PhaseFrame<B, K>& frame = all_.frame;
-    double size = 0;
-    for (std::size_t d = 0; d < dim; ++d) size = std::max(size, all_.problem.grid.max[d] - all_.problem.grid.min[d]);
-    if (!(std::abs(frame.grid_moved) <= largest_share * size)) throw StateError("its grid has gone too far");
-    frame.grid = grid_at<dim>(all_.problem, frame.grid_moved);
+    frame.grid = saved_grid_at<dim>(all_.problem, frame.grid_moved);
     long cells = 1;
     for (const Axis& axis : frame.grid.axes) cells *= axis.cells();
     const std::string fault = disorder_of(frame.body.points, cells, frame.body.numbers());

@@ -31,7 +31,7 @@ struct PhaseFrame {
   PhaseFrame(const Problem& of, const CarriedBodyOf<K>* carried)
       : problem(of),
         grid_moved(carried ? carried->grid_moved() : 0),
-        grid(grid_at<dim>(of, grid_moved)),
+        grid(saved_grid_at<dim>(of, grid_moved)),
         body(make_body<K>(of, grid, of.phase.ends(), carried)),
         remembers(std::ranges::any_of(body.materials, [](const auto& law) { return law->info().history_dependent; })),
         total_mass(account().total_mass()),
