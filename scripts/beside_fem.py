@@ -129,9 +129,10 @@ def parse():
     return options
 
 
-def about(options, load):
+def about(options, load, threads="each run on one thread, "):
+    """The machine and how it was measured."""
     return (
-        f"{os.cpu_count()} cores, each run on one thread, the fastest of {options.repeat} runs in turn (of long ones fewer), "
+        f"{os.cpu_count()} cores, {threads}the fastest of {options.repeat} runs in turn (of long ones fewer), "
         f"others' load {load:.1f} when they began."
     )
 

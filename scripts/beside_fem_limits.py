@@ -16,7 +16,7 @@ import sys
 import time
 from pathlib import Path
 
-from beside_fem import fem_is_there
+from beside_fem import about, fem_is_there
 from beside_fem_limits_page import line, sections
 from beside_fem_limits_runs import measured, sizes_of, ways_of
 from beside_fem_limits_table import BLOCK, FOOTING, path_of, write_csv
@@ -77,13 +77,6 @@ def parse():
     return options
 
 
-def about(options, load):
-    return (
-        f"{os.cpu_count()} cores, each run on one thread, the fastest of {options.repeat} runs in turn (of long ones fewer), "
-        f"others' load {load:.1f} when they began.\n"
-    )
-
-
 def main():
     options, start, load = parse(), time.monotonic(), os.getloadavg()[0]
     if not fem_is_there():
@@ -95,7 +88,7 @@ def main():
     import plot_beside_fem_limits  # here: drawing takes a second to begin
 
     plot_beside_fem_limits.draw_all(rows, paths, options.out)
-    text = sections(rows, paths) + "\n" + about(options, load)
+    text = sections(rows, paths) + "\n" + about(options, load) + "\n"
     (options.out / "beside_fem_limits.md").write_text(text, encoding="utf-8")
     missing = sum(not row.found for row in rows)
     print(f"{len(rows)} figures, {missing} missing, {time.monotonic() - start:.0f} s; {options.out / 'beside_fem_limits.md'}")

@@ -16,7 +16,7 @@ import sys
 import time
 from pathlib import Path
 
-from beside_fem import fem_is_there, measured
+from beside_fem import about, fem_is_there, measured
 from beside_fem_cases import CASES
 from beside_fem_runs import FEM, OURS, ROOT, cases_named, refer, ways_of
 from beside_fem_table import write_csv
@@ -91,13 +91,6 @@ def parse():
     return options
 
 
-def about(options, load):
-    return (
-        f"{os.cpu_count()} cores, the fastest of {options.repeat} runs in turn (of long ones fewer), "
-        f"others' load {load:.1f} when they began.\n"
-    )
-
-
 def main():
     options, start, load = parse(), time.monotonic(), os.getloadavg()[0]
     if lacking := "FEniCSx" if not fem_is_there() else "mpirun" if not shutil.which("mpirun") else None:
@@ -107,7 +100,7 @@ def main():
     pairs = measure(options)
     shutil.rmtree(options.out / "runs", ignore_errors=True)
     file = options.out / "beside_fem_threads.md"
-    file.write_text(section(pairs) + "\n" + about(options, load), encoding="utf-8")
+    file.write_text(section(pairs) + "\n" + about(options, load, threads="") + "\n", encoding="utf-8")
     rows = rows_of(pairs)
     missing = sum(not solved(row) for row in rows)
     print(f"{len(rows)} figures, {missing} missing, {time.monotonic() - start:.0f} s; {file}")

@@ -130,9 +130,8 @@ std::optional<double> LimitLoad::measured_growth() const {
 std::string LimitLoad::description() const {
   if (!growth_) return "too few steps to tell how the factor grows";
   std::string growth = fmt::format(
-      "over the last fifth of the displacement the load factor grew {:.3g} times as much as the displacement, each as "
-      "a "
-      "share of itself (stop.load_growth = {:.3g})",
+      "over the last fifth of the displacement the load factor grew {:.3g} times as fast as the displacement, each "
+      "relative to its size (stop.load_growth = {:.3g})",
       *growth_, asked_);
   if (reached_ || !is_flat()) return growth;
   std::vector<std::string> missing;
