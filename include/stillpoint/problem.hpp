@@ -57,6 +57,8 @@ struct BodySpec {    // [body], or several [[body]]: material points in a shape 
   std::vector<std::vector<double>> cylinder;  // centres of a cylinder's ends, (2 × 3) [m]
   double radius = 0, inner_radius = 0;        // radii of a sphere or cylinder [m]; inner: 0 if it is solid
   std::filesystem::path stl;                  // file of a closed surface of triangles
+  std::filesystem::path mesh;                 // file of a mesh of Gmsh's; resolve() makes a polygon or triangles of it
+  std::string group;                          // physical group of the mesh that the body is; empty: all of them
   std::filesystem::path file;                 // CSV of points: x, y, volume (with thickness); empty: the shape is
                                               // filled with points
   PointOutline outline;                       // outline of the points of `file`, if a load acts on it
@@ -70,13 +72,13 @@ struct BodySpec {    // [body], or several [[body]]: material points in a shape 
   Choice<VolumeRule> volumes = Choice<VolumeRule>::open(VolumeRule::consistent);
   unsigned long seed = 1;  // seed of placement = "random" and of jitter
 
-  StlSolid from_stl{};  // contents of `stl`; resolve() reads them, once
+  StlSolid from_stl{};  // contents of `stl`, or of `mesh` in space; resolve() reads them, once
 
   BodyShape shape() const {
     if (!polygon.empty()) return BodyShape::polygon;
     if (!sphere.empty()) return BodyShape::sphere;
     if (!cylinder.empty()) return BodyShape::cylinder;
-    if (!stl.empty()) return BodyShape::triangles;
+    if (!stl.empty() || !mesh.empty()) return BodyShape::triangles;
     return file.empty() ? BodyShape::box : BodyShape::points;
   }
   bool is_box() const { return shape() == BodyShape::box; }
@@ -155,10 +157,11 @@ struct StopSpec {          // [stop]: a test set to 0 is off
   bool wants_equilibrium() const { return residual > 0 || distance > 0; }
 };
 
-struct OutputSpec {               // [output]
-  double every = 0;               // time between rows of the history [s]; 0: chosen
-  std::vector<double> snapshots;  // times at which the fields of all points are written [s]
-  double fields_every = 0;        // or the time between such writes [s]; 0: at the stages only
+struct OutputSpec {                            // [output]
+  double every = 0;                            // time between rows of the history [s]; 0: chosen
+  std::vector<double> snapshots;               // times at which the fields of all points are written [s]
+  double fields_every = 0;                     // or the time between such writes [s]; 0: at the stages only
+  std::vector<std::string> format = {"xdmf"};  // of these files: "xdmf" (fields.h5, fields.xdmf), "vtu" (fields.pvd)
 };
 
 struct CheckpointSpec {  // [checkpoint]: intervals at which the state is saved, so that the run can be resumed

@@ -24,33 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array of_stress = {"xx", "yy", "zz", "xy", "yz", "zx"};
-
-[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("a frame of fields: " + what); }
-
-bool is_word(const std::string& name) {
-  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
-  return !name.empty() && name.find_first_not_of(letters) == std::string::npos;
-}
-
-void validate(const FieldFrame& frame) {
-  if (frame.points == 0) refuse("no points");
-  if (!is_dimension(frame.dim)) refuse(fmt::format("dimension {}", frame.dim));
-  const auto expect = [](const std::string& name, std::size_t size, std::size_t expected) {
-    if (size != expected) refuse(fmt::format("{} has {} values, expected {}", name, size, expected));
-  };
-  expect("place", frame.position.size(), frame.points * static_cast<std::size_t>(frame.dim));
-  if (!frame.material.empty()) expect("material", frame.material.size(), frame.points);
-  std::set<std::string> names = {"place", "material"};
-  for (const PointField& field : frame.fields) {
-    if (!is_word(field.name)) refuse(fmt::format("'{}' is no name of a field", field.name));
-    if (!names.insert(field.name).second) refuse(fmt::format("there is more than one '{}'", field.name));
-    if (field.components < 1 || field.components > static_cast<int>(of_stress.size())) {
-      refuse(fmt::format("{} has {} components, expected 1 to {}", field.name, field.components, of_stress.size()));
-    }
-    expect(field.name, field.values.size(), frame.points * static_cast<std::size_t>(field.components));
-  }
-}
+constexpr std::array of_tensor = {"xx", "yy", "zz", "xy", "yz", "zx"};
 
 // --- the text of fields.xdmf ---------------------------------------------------------------------
 
@@ -110,21 +84,25 @@ std::string write_vertices(std::size_t points, Hdf5File& file) {
   return name;
 }
 
-// A stress becomes scalars. As a Tensor6 its components would have the right names in ParaView's reader of XDMF 2, but
+// A tensor becomes scalars. As a Tensor6 its components would have the right names in ParaView's reader of XDMF 2, but
 // permuted ones in those of XDMF 3: these take xx, xy, xz, yy, yz, zz for xx, yy, zz, xy, yz, xz.
 void write(const PointField& field, const std::string& group, Hdf5File& file, GridText& grid) {
   const auto width = static_cast<std::size_t>(field.components);
-  const auto in_group = [&](const std::string& name) { return fmt::format("{}/{}", group, name); };
+  const auto add = [&](const std::string& name, const Columns& columns) {
+    const std::string in_group = fmt::format("{}/{}", group, name);
+    file.write(in_group, field.values, columns);
+    if (!field.unit.empty()) file.write_attribute(in_group, "unit", field.unit);
+  };
   if (width == 1) {
-    file.write(in_group(field.name), field.values, {1, 0, 1, 1});
+    add(field.name, {1, 0, 1, 1});
     grid.add_scalar(field.name);
   } else if (width <= 3) {
-    file.write(in_group(field.name), field.values, {width, 0, width, 3});
+    add(field.name, {width, 0, width, 3});
     grid.add_vector(field.name);
   } else {
     for (std::size_t k = 0; k < width; ++k) {
-      const std::string name = fmt::format("{}_{}", field.name, of_stress[k]);
-      file.write(in_group(name), field.values, {width, k, 1, 1});
+      const std::string name = fmt::format("{}_{}", field.name, of_tensor[k]);
+      add(name, {width, k, 1, 1});
       grid.add_scalar(name);
     }
   }
@@ -134,10 +112,12 @@ void write(const PointField& field, const std::string& group, Hdf5File& file, Gr
 std::string write(const FieldFrame& frame, const std::string& group, Hdf5File& file) {
   file.make_group(group);
   file.write_attribute(group, "t", frame.t);
+  file.write_attribute(group, "t_unit", std::string("s"));
   file.write_attribute(group, "dim", frame.dim);
   GridText grid(group, frame.t, frame.points, write_vertices(frame.points, file));
   const auto dim = static_cast<std::size_t>(frame.dim);
   file.write(group + "/place", frame.position, {dim, 0, dim, 3});
+  file.write_attribute(group + "/place", "unit", std::string("m"));
   for (const PointField& field : frame.fields) write(field, group, file, grid);
   if (!frame.material.empty()) {
     file.write(group + "/material", frame.material);

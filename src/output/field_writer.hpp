@@ -3,32 +3,15 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <string>
-#include <vector>
+
+#include "output/field_frame.hpp"
 
 namespace stillpoint {
 
-/// A field at the points, (points × components) row by row. ParaView shows 1 component as a scalar, 2 or 3 as a vector,
-/// and the 4 of a stress in the plane or the 6 of one in space, xx, yy, zz, xy, yz, zx, as scalars NAME_xx, NAME_yy, ….
-struct PointField {
-  std::string name;  // letters, digits and _
-  int components;
-  std::vector<double> values;
-};
-
-/// The material points at time t [s].
-struct FieldFrame {
-  double t;
-  int dim;
-  std::size_t points;            // > 0
-  std::vector<double> position;  // (points × dim) [m], deformed
-  std::vector<PointField> fields;
-  std::vector<int> material;  // (points), or empty: not written
-};
-
 /// Writes frame by frame. Frame k of fields.h5 is the group /frame_000k with the attributes t and dim: `place` and
-/// every vector in 3 columns (0 beyond dim), scalars in one; /vertex/P counts 0 … P − 1 for frames of P points.
-/// fields.xdmf makes each dataset an attribute of the same name. Equal frames give equal bytes.
+/// every vector in 3 columns (0 beyond dim), scalars in one, and a tensor's components as scalars NAME_xx, NAME_yy, …,
+/// each with the attribute `unit` where it has one; /vertex/P counts 0 … P − 1 for frames of P points. fields.xdmf
+/// makes each dataset an attribute of the same name. Equal frames give equal bytes.
 ///
 /// Until finish() each frame is a file of its own below fields.partial/, complete or absent, so that a killed process
 /// or a full disk leaves all earlier frames. The constructor creates the folder if need be. The constructor, add() and
@@ -44,7 +27,6 @@ class FieldWriter {
 
   /// Throws std::invalid_argument for a frame whose parts do not have the shapes above; nothing is written then.
   void add(const FieldFrame& frame);
-  std::size_t frames() const { return finished_ ? 0 : frames_; }
   /// Joins the frames. Has to be called at the end of every run, also of one that failed.
   void finish();
 

@@ -71,6 +71,16 @@ void Hdf5File::write_attribute(const std::string& group, const std::string& name
   write_attribute(group, name, H5T_STD_I32LE, H5T_NATIVE_INT, &value);
 }
 
+// Of any length, which h5py reads as a str and not as bytes.
+void Hdf5File::write_attribute(const std::string& group, const std::string& name, const std::string& value) {
+  const Quiet quiet;
+  const Handle type(check(H5Tcopy(H5T_C_S1)), H5Tclose);
+  check(H5Tset_size(type, H5T_VARIABLE));
+  check(H5Tset_cset(type, H5T_CSET_UTF8));
+  const char* const text = value.c_str();
+  write_attribute(group, name, type, type, static_cast<const void*>(&text));
+}
+
 void Hdf5File::write_attribute(const std::string& group, const std::string& name, hid_t type, hid_t native_type,
                                const void* value) {
   const Quiet quiet;

@@ -40,6 +40,7 @@ class Hdf5File {
   std::vector<std::string> names_in(const std::string& group) const;
   void write_attribute(const std::string& group, const std::string& name, double value);
   void write_attribute(const std::string& group, const std::string& name, int value);
+  void write_attribute(const std::string& group, const std::string& name, const std::string& value);
   /// Writes a dataset of at least one row. Chunked, and compressed if the library can, a chunk at a time.
   void write(const std::string& name, const std::vector<double>& values, const Columns& columns);
   void write(const std::string& name, const std::vector<int>& values);

@@ -16,6 +16,10 @@ std::vector<double> point_field(const LagrangianPhase& phase, const std::string&
 /// The effective stress σ' = σ + p_w I in the place of a stress in the order of components of a Stress [Pa].
 void make_effective(Vec stress, double pore_pressure);
 
+/// The strain ½ (∇u + ∇uᵀ) since the phase began, as a stress has its components: xx; in the plane xx, yy, zz, xy with
+/// zz = 0, around an axis zz = u_r/r; in space xx, yy, zz, xy, yz, zx. (P × components)
+std::vector<double> strain_tensors(const LagrangianPhase& phase, double t, ConstVec u);
+
 /// The largest component of ∂u/∂x at the points, by its size, since the phase began, and the number of its point.
 struct LargestStrain {
   double strain = 0;

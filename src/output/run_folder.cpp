@@ -24,9 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* of_the_end[] = {"summary.json", "report.html", "unstable_mode.csv"};
-constexpr const char* gone_on_from[] = {"history.csv", "fields.h5", "fields.xdmf", "checkpoint.h5",
-                                        "checkpoint-previous.h5"};
-constexpr const char* frames_folder = "fields.partial";
+constexpr const char* gone_on_from[] = {"history.csv", "fields.h5",     "fields.xdmf",           "fields.pvd",
+                                        "grid.pvd",    "checkpoint.h5", "checkpoint-previous.h5"};
+constexpr const char* frames_folders[] = {"fields.partial", "fields_vtu"};
 
 void require_file(const fs::path& path) {
   if (!fs::is_directory(path)) return;
@@ -117,7 +117,7 @@ std::shared_ptr<FolderLock> prepare_folder(const fs::path& folder, bool resumes)
     for (const char* name : of_the_end) fs::remove(folder / name);
     if (resumes) return lock;
     for (const char* name : gone_on_from) fs::remove(folder / name);
-    fs::remove_all(folder / frames_folder);
+    for (const char* name : frames_folders) fs::remove_all(folder / name);
     return lock;
   } catch (const fs::filesystem_error& error) {
     throw_unless_of_disk(folder, error);

@@ -1,7 +1,10 @@
 #include "output/snapshots.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <string_view>
+#include <utility>
 
 #include "output/free_surface.hpp"
 #include "output/point_fields.hpp"
@@ -9,6 +12,11 @@
 #include "scene/grid_lines.hpp"
 
 namespace stillpoint {
+
+bool writes_fields(const OutputSpec& output, std::string_view format) {
+  return (!output.snapshots.empty() || output.fields_every > 0) &&
+         std::ranges::find(output.format, format) != output.format.end();
+}
 
 double slope_angle_of(const Problem& problem, ConstVec position) {
   const double column = longest_cell(problem.grid, 0);
@@ -23,17 +31,50 @@ double slope_angle_of(const Problem& problem, const LagrangianPhase& phase, doub
   return slope_angle_of(problem, current_positions(phase, t, u));
 }
 
+namespace {
+
+std::string unit_of(const std::string& field) {
+  constexpr std::array<std::array<std::string_view, 2>, 6> units{
+      {{"u", "m"}, {"v", "m/s"}, {"stress", "Pa"}, {"volume", "m^3"}, {"pore_pressure", "Pa"}, {"pc", "Pa"}}};
+  const auto found = std::ranges::find(units, field, [](const auto& one) { return one[0]; });
+  return found == units.end() ? "" : std::string((*found)[1]);
+}
+
+FieldFrame frame_at(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u, ConstVec v) {
+  FieldFrame frame{.t = t,
+                   .dim = phase.dim(),
+                   .points = phase.points(),
+                   .position = current_positions(phase, t, u),
+                   .fields = {},
+                   .material = phase.fields().point_data().materials,
+                   .grid_lines = phase.shape().grid_lines()};
+  const auto add = [&](const std::string& name, std::vector<double> values) {
+    const int components = static_cast<int>(values.size() / phase.points());
+    frame.fields.push_back({name, components, std::move(values), unit_of(name)});
+  };
+  for (const char* name : {"u", "v", "stress", "volume"}) add(name, point_field(phase, name, t, u, v));
+  if (!problem.phase.ends()) add("strain", strain_tensors(phase, t, u));
+  for (const std::string& name : phase.info().history_names) add(name, point_field(phase, name, t, u, v));
+  return frame;
+}
+
+}  // namespace
+
 Snapshots::Snapshots(const Problem& problem, const LagrangianPhase& phase, const std::filesystem::path& folder,
                      bool resumed)
     : problem_(problem), phase_(phase) {
-  const bool asked = !problem.output.snapshots.empty() || problem.output.fields_every > 0;
+  const bool asked = writes_fields(problem.output, "xdmf") || writes_fields(problem.output, "vtu");
   if (asked) folder_ = folder;
-  if (!folder_.empty() && !resumed) writer_.emplace(folder_);
+  if (!folder_.empty() && !resumed) open(0);
+}
+
+void Snapshots::open(std::size_t frames) {
+  if (writes_fields(problem_.output, "xdmf")) xdmf_.emplace(folder_, frames);
+  if (writes_fields(problem_.output, "vtu")) vtu_.emplace(folder_, frames);
 }
 
 void Snapshots::archive(const StateArchive& state) {
-  std::size_t frames = writer_ ? writer_->frames() : 0;
-  state("frames", frames);
+  state("frames", frames_);
   state("next_stage", next_snapshot_);
   state("next_regular", next_regular_);
   std::vector<double> times, angles;
@@ -47,7 +88,7 @@ void Snapshots::archive(const StateArchive& state) {
   if (times.size() != angles.size()) throw StateError("the times of its stages and their angles differ in number");
   taken_.clear();
   for (std::size_t k = 0; k < times.size(); ++k) taken_.push_back({times[k], angles[k]});
-  if (!folder_.empty()) writer_.emplace(folder_, frames);
+  if (!folder_.empty()) open(frames_);
 }
 
 double Snapshots::next_time() const {
@@ -70,30 +111,20 @@ void Snapshots::sample(double t, ConstVec u, ConstVec v) {
 }
 
 void Snapshots::take_last(double t, ConstVec u, ConstVec v) {
-  if (writer_ && (taken_.empty() || taken_.back().t < t)) take(t, u, v);
+  if (writes() && (taken_.empty() || taken_.back().t < t)) take(t, u, v);
 }
 
 void Snapshots::finish() {
-  if (writer_) writer_->finish();
+  if (xdmf_) xdmf_->finish();
 }
 
 void Snapshots::take(double t, ConstVec u, ConstVec v) {
   taken_.push_back({t, slope_angle_of(problem_, phase_, t, u)});
-  if (!writer_) return;
-  FieldFrame frame{.t = t,
-                   .dim = phase_.dim(),
-                   .points = phase_.points(),
-                   .position = current_positions(phase_, t, u),
-                   .fields = {},
-                   .material = phase_.fields().point_data().materials};
-  std::vector<std::string> names = {"u", "v", "stress"};
-  std::ranges::copy(phase_.info().history_names, std::back_inserter(names));
-  for (const std::string& name : names) {
-    std::vector<double> values = point_field(phase_, name, t, u, v);
-    const int components = static_cast<int>(values.size() / phase_.points());
-    frame.fields.push_back({name, components, std::move(values)});
-  }
-  writer_->add(frame);
+  if (!writes()) return;
+  const FieldFrame frame = frame_at(problem_, phase_, t, u, v);
+  if (xdmf_) xdmf_->add(frame);
+  if (vtu_) vtu_->add(frame);
+  ++frames_;
 }
 
 }  // namespace stillpoint

@@ -6,12 +6,17 @@
 
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "output/field_writer.hpp"
+#include "output/vtu_writer.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
 namespace stillpoint {
+
+/// Whether the fields of all points are written at some times in files of a format, "xdmf" or "vtu".
+bool writes_fields(const OutputSpec& output, std::string_view format);
 
 /// Writes at the times of output.snapshots and every output.fields_every, and the last state when the run ends.
 class Snapshots {
@@ -35,11 +40,16 @@ class Snapshots {
 
  private:
   void take(double t, ConstVec u, ConstVec v);
+  /// Opens the files; frames: those of a run that is continued.
+  void open(std::size_t frames);
+  bool writes() const { return xdmf_ || vtu_; }
 
   const Problem& problem_;
   const LagrangianPhase& phase_;
   std::filesystem::path folder_;  // empty: nothing is written
-  std::optional<FieldWriter> writer_;
+  std::optional<FieldWriter> xdmf_;
+  std::optional<VtuWriter> vtu_;
+  std::size_t frames_ = 0;  // that were written
   std::size_t next_snapshot_ = 0;
   long next_regular_ = 0;
   std::vector<Snapshot> taken_;

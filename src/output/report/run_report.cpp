@@ -16,6 +16,7 @@
 
 #include "output/hdf5_file.hpp"
 #include "output/report/report_page.hpp"
+#include "output/snapshots.hpp"
 
 namespace stillpoint {
 namespace {
@@ -83,9 +84,7 @@ void write_extremes(const std::vector<Row>& rows, std::string& text) {
 
 RunReport::RunReport(const Scene& scene, std::filesystem::path folder) : scene_(scene), folder_(std::move(folder)) {}
 
-bool RunReport::looks_at_body() const {
-  return !folder_.empty() && scene_.output.snapshots.empty() && scene_.output.fields_every <= 0;
-}
+bool RunReport::looks_at_body() const { return !folder_.empty() && !writes_fields(scene_.output, "xdmf"); }
 
 // A run that has reached its end must not fail because there is no memory for a picture.
 template <class Draw>

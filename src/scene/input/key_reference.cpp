@@ -65,7 +65,7 @@ std::string told_type(const KeyInfo& key) {
     case Shape::components:
       return one + ", for each component";
     case Shape::list:
-      return fmt::format("array of {}s", one);
+      return "array of " + one + (key.words.empty() ? "s" : "");
     case Shape::positions:
       return "array of positions";
     case Shape::rows:

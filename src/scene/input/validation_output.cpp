@@ -118,6 +118,7 @@ void check_probes(SceneCheck& check, const std::optional<NamedBox>& body) {
 }
 
 void check_snapshots(SceneCheck& check) {
+  check.wrong_if(check.scene().output.format.empty(), "output.format", "must name a format, \"xdmf\" or \"vtu\"");
   const std::vector<double>& stages = check.scene().output.snapshots;
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const std::string key = fmt::format("output.stages[{}]", k);

@@ -208,6 +208,8 @@ class PhaseShape {
  public:
   virtual ~PhaseShape() = default;
   virtual Discretisation discretisation() const = 0;
+  /// The lines of the grid along each axis [m].
+  virtual std::vector<std::vector<double>> grid_lines() const = 0;
   /// The positions of the unknowns, at which the coefficients of a linear motion equal the motion; empty for a basis
   /// with slopes.
   virtual NodalLayout layout() const = 0;

@@ -32,6 +32,11 @@ class PhaseShapeOf final : public PhaseShape {
     return {frame_.account().arrays(arrays), frame_.dofs().prescribed.size(), std::move(cells), occupied.size(),
             frame_.body.quadrature};
   }
+  std::vector<std::vector<double>> grid_lines() const override {
+    std::vector<std::vector<double>> lines;
+    for (const Axis& axis : frame_.grid.axes) lines.push_back(axis.nodes);
+    return lines;
+  }
   NodalLayout layout() const override { return layout_of(frame_.functions, frame_.dofs()); }
   std::vector<FreePart> free_parts() const override {
     const std::vector<char> sprung = all_.conditions.are_sprung(frame_.dofs().number.size());

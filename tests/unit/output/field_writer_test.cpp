@@ -2,53 +2,24 @@
 #include "output/field_writer.hpp"
 
 #include <cerrno>
-#include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 
 #include <catch2/catch.hpp>
-#include <sys/resource.h>
 
 #include "temporary_folder.hpp"
+#include "unit/output/frames.hpp"
 
 using namespace stillpoint;
-using stillpoint::test::TemporaryFolder;
+using stillpoint::test::a_frame, stillpoint::test::bytes_of, stillpoint::test::FullDisk, stillpoint::test::names_in,
+    stillpoint::test::TemporaryFolder;
 namespace fs = std::filesystem;
 using Names = std::set<std::string>;
 
 namespace {
-
-// Numbers that no compression makes small.
-FieldFrame a_frame(double t, std::size_t points = 3) {
-  FieldFrame frame{t, 2, points, {}, {{"u", 2, {}}, {"stress", 4, {}}, {"plastic_strain", 1, {}}}, {}};
-  unsigned long state = 1;
-  const auto fill = [&](std::vector<double>& values, std::size_t size) {
-    for (std::size_t k = 0; k < size; ++k) {
-      state = state * 6364136223846793005u + 1442695040888963407u;
-      values.push_back(static_cast<double>(state));
-    }
-  };
-  fill(frame.position, 2 * points);
-  for (PointField& field : frame.fields) fill(field.values, static_cast<std::size_t>(field.components) * points);
-  frame.material.assign(points, 1);
-  return frame;
-}
-
-Names names_in(const fs::path& folder) {
-  Names names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
-  return names;
-}
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 std::size_t frames_in_xdmf(const fs::path& folder) {
   const std::string text = bytes_of(folder / "fields.xdmf");
@@ -66,26 +37,6 @@ int open_in(const fs::path& folder) {
   }
   return count;
 }
-
-// No file of this process grows beyond some size, as on a disk that is full.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FullDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-
- private:
-  rlimit before_{};
-  void (*handler_)(int);
-};
 
 }  // namespace
 
