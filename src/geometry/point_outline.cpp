@@ -111,18 +111,6 @@ PlanePoint moved_out(const Polygon& loop, std::size_t k, double by) {
   return {here[0] + share * (n[0] + m[0]), here[1] + share * (n[1] + m[1])};
 }
 
-// Without corners at which nothing turns.
-Polygon without_straight_corners(const Polygon& loop) {
-  constexpr double rounding = 1e-9;
-  Polygon kept;
-  for (std::size_t k = 0; k < loop.size(); ++k) {
-    const PlanePoint &before = kept.empty() ? loop.back() : kept.back(), &after = loop[(k + 1) % loop.size()];
-    const double size = distance(before, loop[k]) * distance(loop[k], after);
-    if (std::abs(turn(before, loop[k], after)) > rounding * size) kept.push_back(loop[k]);
-  }
-  return kept;
-}
-
 }  // namespace
 
 std::vector<Polygon> outline_of_points(const std::vector<double>& x, const std::vector<double>& y,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace stillpoint {
 
@@ -95,6 +96,26 @@ double signed_area(const Polygon& polygon) {
   double twice = 0;
   for (std::size_t k = 2; k < polygon.size(); ++k) twice += turn(polygon[0], polygon[k - 1], polygon[k]);
   return twice / 2;
+}
+
+std::vector<char> edges_of_border(const Polygon& polygon) {
+  const std::size_t n = polygon.size();
+  std::set<std::pair<PlanePoint, PlanePoint>> edges;
+  for (std::size_t k = 0; k < n; ++k) edges.emplace(polygon[k], polygon[(k + 1) % n]);
+  std::vector<char> of_border(n);
+  for (std::size_t k = 0; k < n; ++k) of_border[k] = edges.contains({polygon[(k + 1) % n], polygon[k]}) ? 0 : 1;
+  return of_border;
+}
+
+Polygon without_straight_corners(const Polygon& polygon) {
+  constexpr double rounding = 1e-9;
+  Polygon kept;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const PlanePoint &before = kept.empty() ? polygon.back() : kept.back(), &after = polygon[(k + 1) % polygon.size()];
+    const double size = distance(before, polygon[k]) * distance(polygon[k], after);
+    if (std::abs(turn(before, polygon[k], after)) > rounding * size) kept.push_back(polygon[k]);
+  }
+  return kept;
 }
 
 PlanePoint centroid(const Polygon& polygon) {

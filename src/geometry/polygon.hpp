@@ -21,6 +21,13 @@ double turn(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);
 /// The area, positive if the corners run counter-clockwise.
 double signed_area(const Polygon& polygon);
 
+/// Whether each edge (k: from corner k to the next) is a part of the border: not if another one runs through it the
+/// other way, as one that joins a hole to the outline does.
+std::vector<char> edges_of_border(const Polygon& polygon);
+
+/// The same without corners at which nothing turns.
+Polygon without_straight_corners(const Polygon& polygon);
+
 /// The centroid of a polygon whose area is not 0.
 PlanePoint centroid(const Polygon& polygon);
 

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "geometry/gmsh_file.hpp"
+#include "geometry/mesh_border.hpp"
 #include "geometry/prism.hpp"
 #include "geometry/quadric_solid.hpp"
 #include "geometry/stl_file.hpp"
@@ -45,9 +47,30 @@ std::shared_ptr<const TriangleSolid> read_stl_solid(const std::filesystem::path&
   return std::make_shared<TriangleSolid>(std::move(triangles));
 }
 
+Polygon read_mesh_outline(const BodySpec& body, std::vector<Mistake>& problems) {
+  const Mesh mesh = read_gmsh_file(body.mesh, 2, body.group, problems);
+  if (mesh.elements.empty()) return {};
+  std::string fault;
+  std::vector<Polygon> loops = loops_around(mesh, fault);
+  if (fault.empty()) return joined(std::move(loops));
+  problems.push_back({{body.mesh.string(), 0, 0}, fault});
+  return {};
+}
+
+std::shared_ptr<const TriangleSolid> read_mesh_solid(const BodySpec& body, std::vector<Mistake>& problems) {
+  if (body.from_stl.solid && body.from_stl.file == body.mesh) return body.from_stl.solid;
+  const Mesh mesh = read_gmsh_file(body.mesh, 3, body.group, problems);
+  if (mesh.elements.empty()) return nullptr;
+  std::string fault;
+  std::vector<Facet> triangles = surface_of(mesh, fault);
+  if (fault.empty()) return std::make_shared<TriangleSolid>(std::move(triangles));
+  problems.push_back({{body.mesh.string(), 0, 0}, fault});
+  return nullptr;
+}
+
 std::shared_ptr<const TriangleSolid> stl_solid(const BodySpec& body) {
   std::vector<Mistake> problems;
-  auto solid = read_stl_solid(body.stl, body.from_stl, problems);
+  auto solid = body.mesh.empty() ? read_stl_solid(body.stl, body.from_stl, problems) : read_mesh_solid(body, problems);
   if (!solid) throw SceneError(std::move(problems));
   return solid;
 }

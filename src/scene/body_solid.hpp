@@ -32,7 +32,11 @@ std::shared_ptr<const Solid> solid_of(const BodySpec& body);
 /// problem if the file is wrong.
 std::shared_ptr<const TriangleSolid> read_stl_solid(const std::filesystem::path& file, const StlSolid& known,
                                                     std::vector<Mistake>& problems);
-/// That of the file body.stl; throws SceneError if the file is wrong.
+/// The border of body.mesh, in the plane as a polygon, in which a line that is run through both ways is none of the
+/// border, and in space as a solid; empty or null with a problem if the file is wrong.
+Polygon read_mesh_outline(const BodySpec& body, std::vector<Mistake>& problems);
+std::shared_ptr<const TriangleSolid> read_mesh_solid(const BodySpec& body, std::vector<Mistake>& problems);
+/// That of the file body.stl or body.mesh; throws SceneError if the file is wrong.
 std::shared_ptr<const TriangleSolid> stl_solid(const BodySpec& body);
 
 /// True for a body in space that is no box, so that cells may be partly inside it.

@@ -127,7 +127,9 @@ void add_sides_of_prism(PieceCollector& pieces) {
   Polygon polygon = outline_of(body);
   if (signed_area(polygon) < 0) std::ranges::reverse(polygon);
   const double height = box.high[axis] - box.low[axis];
+  const std::vector<char> of_border = edges_of_border(polygon);
   for (std::size_t k = 0; k < polygon.size(); ++k) {
+    if (!of_border[k]) continue;
     const PlanePoint &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
     double first = 0, last = 1;
     if (!clip(a[0], b[0], box.low[i], box.high[i], first, last)) continue;

@@ -35,7 +35,9 @@ std::vector<BorderLine> straight_line(const Problem& problem, std::size_t body, 
                                       const PlanePoint& to) {
   const Polygon corners = sides_of(problem.bodies[body]);
   const double tolerance = 1e-9 * size_of(corners);
+  const std::vector<char> of_border = edges_of_border(corners);
   for (std::size_t c = 0; c < corners.size(); ++c) {
+    if (!of_border[c]) continue;
     const PlanePoint &a = corners[c], &b = corners[(c + 1) % corners.size()];
     if (on_side(a, b, from, tolerance) && on_side(a, b, to, tolerance))
       return {{.body = body, .from = from, .to = to, .normal = normal_of_edge(a, b)}};
@@ -95,9 +97,10 @@ std::vector<BorderLine> whole_border(const Problem& problem, std::size_t body) {
   const BodySpec& spec = problem.bodies[body];
   std::vector<BorderLine> lines;
   const auto add_loop = [&](const Polygon& loop) {
+    const std::vector<char> of_border = edges_of_border(loop);
     for (std::size_t k = 0; k < loop.size(); ++k) {
       const PlanePoint &a = loop[k], &b = loop[(k + 1) % loop.size()];
-      if (a != b) lines.push_back({.body = body, .from = a, .to = b, .normal = normal_of_edge(a, b)});
+      if (of_border[k] && a != b) lines.push_back({.body = body, .from = a, .to = b, .normal = normal_of_edge(a, b)});
     }
   };
   if (spec.file.empty()) {

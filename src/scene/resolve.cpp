@@ -123,6 +123,7 @@ class Resolution {
     body.max.take(grid.max, "that of the grid");
     if (!body.file.empty()) return read_points(k);
     if (!body.stl.empty()) body.from_stl = triangles_in(body.stl, body.from_stl, FileMistake::Owner::body, k);
+    if (!body.mesh.empty()) read_mesh(k);
     if (!has_grid_) return;
     if (problem_.dim == 2 && !body.polygon.empty()) return resolve_polygon(body);
     resolve_box(body);
@@ -169,6 +170,19 @@ class Resolution {
     snap_to_lines(high, problem_.grid);
     body.min.become(std::move(low));
     body.max.become(std::move(high));
+  }
+
+  // In the plane its border becomes a polygon, in space a surface of triangles.
+  void read_mesh(std::size_t k) {
+    BodySpec& body = problem_.bodies[k];
+    if (body.material.empty()) body.material = body.group;
+    std::vector<Mistake> found;
+    if (problem_.dim == 2 && body.polygon.empty()) {
+      for (const PlanePoint& corner : read_mesh_outline(body, found)) body.polygon.push_back({corner[0], corner[1]});
+    } else if (problem_.dim == 3) {
+      body.from_stl = {.file = body.mesh, .solid = read_mesh_solid(body, found)};
+    }
+    keep({FileMistake::Owner::body, k, "mesh", body.mesh, {}}, found);
   }
 
   StlSolid triangles_in(const std::filesystem::path& file, const StlSolid& known, FileMistake::Owner owner,

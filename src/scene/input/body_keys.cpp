@@ -67,8 +67,14 @@ void read_points_per_cell(BodySpec& body, const Value& value, const KeyInfo& key
       .key("inner_radius", &BodySpec::inner_radius, "of a hollow one",
            {.range = kPositive, .unit = "m", .fallback = "none: it is solid", .dims = kSpace})
       .key("stl", &BodySpec::stl, "STL file of a closed surface of triangles, in metres, not a box", {.dims = kSpace})
+      .key("mesh", &BodySpec::mesh,
+           "mesh of Gmsh's, text of format 4.1 or 2.2, in metres, whose border is that of the body, not a box",
+           {.dims = kNotLine})
+      .key("group", &BodySpec::group, "the physical group of the mesh that the body is",
+           {.fallback = "all of the mesh", .dims = kNotLine})
       .key("file", &BodySpec::file, "CSV of points, not a box: columns x, y, z as there are, volume")
-      .key("material", &BodySpec::material, "the name of a [material.<name>]", {.required = true})
+      .key("material", &BodySpec::material, "the name of a [material.<name>]",
+           {.fallback = "beside group, its name", .required = true, .unless = {"group"}})
       .key("state", &BodySpec::state, "of stress and strain, the same in all bodies",
            {.words = states(), .fallback = "uniaxial-stress, plane-strain or space, by dim"})
       .key("area", &BodySpec::area, "cross-section", {.range = kPositive, .unit = "m2", .dims = kLine})

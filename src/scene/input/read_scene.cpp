@@ -74,7 +74,7 @@ void drop_keys_of_other_choices(toml::table& root, const Catalogue& catalogue) {
 /// Files that a scene names lie beside its own.
 void find_files(Scene& scene) {
   for (BodySpec& body : scene.bodies)
-    for (std::filesystem::path* const file : {&body.file, &body.stl})
+    for (std::filesystem::path* const file : {&body.file, &body.stl, &body.mesh})
       if (!file->empty()) *file = scene.file.parent_path() / *file;
   if (!scene.initial_from.empty()) scene.initial_from = scene.file.parent_path() / scene.initial_from;
   for (RigidSpec& rigid : scene.rigid)

@@ -29,6 +29,19 @@ bool check_box(SceneCheck& check, std::size_t k) {
   return true;
 }
 
+/// True if a mesh in the plane lies in the grid; what is wrong with its file was reported.
+bool check_mesh(SceneCheck& check, std::size_t k) {
+  const BodySpec& body = check.scene().bodies[k];
+  if (body.polygon.empty()) return false;
+  const GridSpec& grid = check.scene().grid;
+  for (std::size_t d = 0; d < 2; ++d)
+    if (check.wrong_if(body.min[d] < grid.min[d] || body.max[d] > grid.max[d], check.body_key(k, "mesh"),
+                       "reaches from {:.6g} to {:.6g} along {}, out of the grid, {} to {}", body.min[d], body.max[d],
+                       "xy"[d], grid.min[d], grid.max[d]))
+      return false;
+  return true;
+}
+
 /// True if the corners of a polygon lie in the grid and enclose an area.
 bool check_polygon(SceneCheck& check, std::size_t k) {
   const BodySpec& body = check.scene().bodies[k];
@@ -186,17 +199,21 @@ void check_keys(SceneCheck& check, std::size_t k) {
   const std::string table = check.body_table(k);
   const auto written = [&](const char* key) { return check.written(table + "." + key); };
   const bool file = written("file"), polygon = written("polygon"), sphere = written("sphere");
-  const bool round = sphere || written("cylinder"), axisymmetric = check.scene().state == StressState::axisymmetric;
+  const bool mesh = written("mesh"), round = sphere || written("cylinder"),
+             axisymmetric = check.scene().state == StressState::axisymmetric;
   check.refuse_if(file, table,
-                  {"min", "max", "polygon", "sphere", "cylinder", "stl", "area", "thickness", "points_per_cell",
+                  {"min", "max", "polygon", "sphere", "cylinder", "stl", "mesh", "area", "thickness", "points_per_cell",
                    "placement", "jitter", "volumes", "seed"},
                   "does not go with file, which holds the points and their volumes");
   check.refuse_if(!file && polygon && check.scene().dim == 2, table, {"min", "max"},
                   "does not go with polygon; give one of them");
   constexpr const char* one_shape = "does not go with {}; a body has one shape";
-  check.refuse_if(!file && polygon, table, {"sphere", "cylinder", "stl"}, one_shape, "polygon");
-  check.refuse_if(!file && !polygon && sphere, table, {"cylinder", "stl"}, one_shape, "sphere");
-  check.refuse_if(!file && !polygon && !sphere && round, table, {"stl"}, one_shape, "cylinder");
+  check.refuse_if(!file && polygon, table, {"sphere", "cylinder", "stl", "mesh"}, one_shape, "polygon");
+  check.refuse_if(!file && !polygon && sphere, table, {"cylinder", "stl", "mesh"}, one_shape, "sphere");
+  check.refuse_if(!file && !polygon && !sphere && round, table, {"stl", "mesh"}, one_shape, "cylinder");
+  check.refuse_if(!file && !polygon && !round && written("stl"), table, {"mesh"}, one_shape, "stl");
+  check.refuse_if(mesh && check.scene().dim == 2, table, {"min", "max"}, "does not go with mesh; give one of them");
+  check.refuse_if(!mesh, table, {"group"}, "goes with mesh, of which it is a physical group");
   check.wrong_if(round && !written("radius"), table + (sphere ? ".sphere" : ".cylinder"), "needs a radius");
   check.refuse_if(!round, table, {"radius", "inner_radius"}, "goes with sphere or cylinder");
   check.refuse_if(!polygon, table, {"axis"}, "goes with polygon, which is drawn out along it");
@@ -210,6 +227,7 @@ void check_keys(SceneCheck& check, std::size_t k) {
 bool is_in_order(SceneCheck& check, std::size_t k, const std::vector<FileMistake>& files) {
   const BodySpec& body = check.scene().bodies[k];
   if (!body.file.empty()) return std::ranges::none_of(files, [k](const FileMistake& one) { return one.is_of_body(k); });
+  if (check.scene().dim == 2 && !body.mesh.empty()) return check_mesh(check, k);
   if (check.scene().dim == 2 && check.given(check.body_key(k, "polygon"), !body.polygon.empty()))
     return check_polygon(check, k);
   return check_box(check, k) && (check.scene().dim != 3 || !has_shape_key(check, k) || check_solid(check, k));

@@ -17,12 +17,13 @@ namespace stillpoint {
 namespace {
 
 // In the order of BodyShape, from BodyShape::polygon on.
-constexpr std::array kShapes = {"polygon", "sphere", "cylinder", "stl"};
+constexpr std::array kShapes = {"polygon", "sphere", "cylinder", "stl", "mesh"};
 
 /// The key that gives the shape of a body: the first that is written, or that of the shape.
 std::string shape_key(const SceneCheck& check, std::size_t k) {
   for (const char* const shape : kShapes)
     if (check.written(check.body_key(k, shape))) return check.body_key(k, shape);
+  if (!check.scene().bodies[k].mesh.empty()) return check.body_key(k, "mesh");
   const auto polygon = static_cast<std::size_t>(BodyShape::polygon);
   return check.body_key(k, kShapes.at(static_cast<std::size_t>(check.scene().bodies[k].shape()) - polygon));
 }
