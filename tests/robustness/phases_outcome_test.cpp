@@ -35,6 +35,12 @@ TEST_CASE("a material point that leaves the grid ends the run as failed, with it
   CHECK(scenes::probe(s, "p", "u.y") == Approx(s.t).epsilon(1e-6));
 }
 
+TEST_CASE("a wall that no grid can follow ends the run as failed, with where it has gone") {
+  const Summary s = run(scenes::load("slope", {"grid.cells=[40, 16]", "wall[0].motion='1e300*t'", "stop.time=0.1"}));
+  CHECK(s.status == RunStatus::failed);
+  CHECK_THAT(s.reason, Catch::Contains("further than a grid can follow"));
+}
+
 TEST_CASE("a phase that cannot begin ends the run as failed, with the reason, and what was written is kept") {
   const TemporaryFolder folder;
   // The block slides off the node that is held.

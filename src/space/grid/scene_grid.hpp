@@ -58,13 +58,19 @@ Grid<Dim> grid_at(const Problem& problem, double moved) {
   return grid;
 }
 
-/// The same for a displacement that was saved; throws StateError if no run could have followed the wall so far.
+/// Whether a followed wall has moved by no more than a thousand times the grid's own size, and by a number.
+inline bool can_follow(const Problem& problem, double moved) {
+  constexpr double largest_share = 1000;
+  double size = 0;
+  for (std::size_t d = 0; d < problem.grid.max.size(); ++d)
+    size = std::max(size, problem.grid.max[d] - problem.grid.min[d]);
+  return std::abs(moved) <= largest_share * size;
+}
+
+/// The same grid for a displacement that was saved; throws StateError if no run could have followed the wall so far.
 template <int Dim>
 Grid<Dim> saved_grid_at(const Problem& problem, double moved) {
-  constexpr double largest_share = 1000;  // of the grid's own size
-  double size = 0;
-  for (std::size_t d = 0; d < Dim; ++d) size = std::max(size, problem.grid.max[d] - problem.grid.min[d]);
-  if (!(std::abs(moved) <= largest_share * size)) throw StateError("its grid has gone too far");
+  if (!can_follow(problem, moved)) throw StateError("its grid has gone too far");
   return grid_at<Dim>(problem, moved);
 }
 

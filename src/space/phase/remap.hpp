@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "scene/dimensions.hpp"
+#include "scene/throw_scene_error.hpp"
 #include "space/boundary/conditions.hpp"
 #include "space/kernels/velocity_transfer.hpp"
 #include "space/phase/deformation_from_positions.hpp"
@@ -79,13 +80,20 @@ class Remap {
   }
 
   /// Ends the phase at (t, u, v): the points move on, and are sorted in the grid of the next one. motion: of the phase
-  /// [cells]. Throws PointLost, before anything has changed, if a point leaves the grid.
+  /// [cells]. Throws PointLost if a point leaves the grid, and SceneError if a followed wall does so, before anything
+  /// has changed.
   void end_phase(double t, ConstVec u, ConstVec v, double motion) {
     if (start_velocity_.empty())
       throw std::logic_error("no phase ends in a scene of a single one, nor before initial_velocity()");
     const std::vector<WallReaction> walls = conditions_.wall_reactions(t);
     const auto followed = std::ranges::find(walls, frame_.problem.grid.follow, &WallReaction::name);
     const double grid_moves_to = followed == walls.end() ? 0 : followed->displacement;
+    if (!can_follow(frame_.problem, grid_moves_to))
+      throw_scene_error(
+          "grid.follow",
+          fmt::format("the wall has moved by {} m at t = {:.6g}, further than a grid can follow; expected "
+                      "less than a thousand times its size",
+                      grid_moves_to, t));
     Grid<dim> next_grid = grid_at<dim>(frame_.problem, grid_moves_to);
     const auto work = force_.borrow();
     frame_.unknowns.spread(t, u, work->u);
