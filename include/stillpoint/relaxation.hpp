@@ -10,6 +10,7 @@
 #include <stillpoint/integrator.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +25,9 @@ struct RelaxationOptions {
   double omega_1 = 0;                    // for chebyshev [rad/s]; it derives ω_max from max_step
   bool steady = true;                    // for auto: the loads do not depend on t, so that velocities may be reset
   bool single_phase = true;              // for auto: no other phase will follow
-  bool linear = false;                   // for auto: Q is linear in u
+  std::optional<bool> path_dependent{};  // and whether an equilibrium depends on the way to it, as with a yielding law
+                                         // or friction; empty: if the system is history_dependent()
+  bool linear = false;  // for auto: Q is linear in u
   CarriedOver from{};
 };
 

@@ -158,6 +158,7 @@ void choose_strategy(SetUpState& set_up, bool takes_c) {
                     .omega_1 = model.omega_1.value_or(0),
                     .steady = plan.equilibrium_only,
                     .single_phase = !plan.moves_on,
+                    .path_dependent = plan.remembers,
                     .linear = plan.estimates.linear};
 }
 

@@ -1,7 +1,7 @@
 // Relaxation that chooses its own method and parameters, with no number from the user.
 //
-// If only equilibrium is asked for, of a body without history, without contact and in a single phase, the steps are
-// those of a conjugate descent (conjugate_descent.hpp), which needs fewer of them than any damped motion: iterates
+// If only equilibrium is asked for, of a body without history, without walls that open and in a single phase, the steps
+// are those of a conjugate descent (conjugate_descent.hpp), which needs fewer of them than any damped motion: iterates
 // without a velocity. In all other cases, and after the descent has found no way on, has twice within a few steps led
 // to a state that cannot be evaluated, or has not halved √(QᵀM⁻¹Q) for long, it is a damped motion
 //
@@ -38,7 +38,8 @@ class Auto final : public StaggeredIteration {
  public:
   Auto(const RelaxationOptions& options, RelaxationSystem& system)
       : StaggeredIteration(options, system),
-        may_descend_(options.steady && options.single_phase && !system.system().history_dependent() &&
+        may_descend_(options.steady && options.single_phase &&
+                     !options.path_dependent.value_or(system.system().history_dependent()) &&
                      !system.system().contact()),
         descends_(may_descend_),
         mass_is_lumped_(system.system().mass().is_lumped()),
@@ -74,7 +75,7 @@ class Auto final : public StaggeredIteration {
   void on_restart() override {
     if (!descends_) return;
     stop();
-    begin_descent();
+    descent_->begin_again(Q(), a(), options().max_step * options().max_step / 4);
   }
 
   // share_ changes only at a halt, so that h⁻ was scaled by the same share.

@@ -37,6 +37,27 @@ void ConjugateDescent::begin(const Vector& Q, const Vector& z, double h) {
   if (memory_) memory_->forget();
 }
 
+void ConjugateDescent::begin_again(const Vector& Q, const Vector& z, double h) {
+  if (!memory_ || memory_->empty()) return begin(Q, z, h);
+  copy(Q, *Q_);
+  copy(Q, way_);
+  memory_->apply(way_);
+  const double slope = dot(Q, way_);
+  if (!(slope > 0)) return begin(Q, z, h);
+  const auto [Q_dot_z, Q_dot_Q] = dots(Q, z, Q);
+  Q_dot_ = {.p = slope, .z_x = Q_dot_z, .z = Q_dot_z, .Q = Q_dot_Q};
+  copy(way_, p_);
+  pMp_ = slope;
+  if (mass_.has_product()) {
+    mass_.apply(p_.span(), z_.span());
+    pMp_ = dot(p_, z_);
+  }
+  slope_ = slope;
+  h_ = 1;
+  first_h_ = h;
+  trials_ = 0;
+}
+
 void ConjugateDescent::look_at(const Vector& Q, const Vector& z) {
   if (memory_) {
     const auto [p, z_w, Q_w] = dots(Q, p_, z, Q);
