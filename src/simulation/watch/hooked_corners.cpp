@@ -3,6 +3,7 @@
 // would not bear that, and a body that should slide would rest behind each piece that it comes to.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -12,21 +13,45 @@
 namespace stillpoint {
 namespace {
 
-/// A free rigid body that would slide if no corner held it; empty: there is none.
-std::string fault_of_corners(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
-  constexpr double little = 1e-3;  // of the force of the body
+/// A rigid body that is free or driven, and that a corner bears by more than this share of its force where friction
+/// does not; empty: there is none.
+struct Hooked {
+  std::string body;
+  double share;  // of its force
+};
+std::optional<Hooked> find_hooked(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u, bool free,
+                                  double least) {
   const std::vector<ContactReport> reports = phase.supports().contacts(t, u);
   for (std::size_t r = 0; r < problem.rigid.size(); ++r) {
     const auto& [x, y, z] = reports[r].force;
     const double force = std::hypot(x, y, z), hooked = reports[r].hooked;
-    if (!problem.rigid[r].free || !(hooked > std::max(little * force, reports[r].friction_left))) continue;
-    return fmt::format(
-        "{} is held by a sharp corner, which stands behind a place of the border that feels contact: {:.2g} of the "
-        "force on it acts along that border, and without it the body slides, as friction does not bear as much; "
-        "expected a rounding of half a cell, or smaller cells",
-        in_quotes(problem.rigid[r].name), hooked / force);
+    if (problem.rigid[r].free == free && hooked > std::max(least * force, reports[r].friction_left))
+      return Hooked{in_quotes(problem.rigid[r].name), hooked / force};
   }
-  return "";
+  return {};
+}
+
+/// A free rigid body that would slide if no corner held it.
+std::string fault_of_corners(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
+  constexpr double little = 1e-3;
+  const auto found = find_hooked(problem, phase, t, u, /*free=*/true, little);
+  if (!found) return "";
+  return fmt::format(
+      "{} is held by a sharp corner, which stands behind a place of the border that feels contact: {:.2g} of the "
+      "force on it acts along that border, and without it the body slides, as friction does not bear as much; "
+      "expected a rounding of half a cell, or smaller cells",
+      found->body, found->share);
+}
+
+/// A driven one, which goes where it is told to go all the same, with another force.
+std::string corner_of_driven(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
+  constexpr double noted = 0.01;
+  const auto found = find_hooked(problem, phase, t, u, /*free=*/false, noted);
+  if (!found) return "";
+  return fmt::format(
+      "a sharp corner of {} pushes the places of a border that feel contact along that border, as the border of the "
+      "material would not be: {:.2g} of its force; expected a rounding of half a cell, or smaller cells",
+      found->body, found->share);
 }
 
 class HookedCorners : public Watcher {
@@ -37,6 +62,8 @@ class HookedCorners : public Watcher {
   }
   void fill_state(Summary& summary, RunState& run) override {
     if (run.scene.stop.wants_equilibrium()) add_note(summary, look(run));
+    if (!run.scene.rigid.empty())
+      add_note(summary, corner_of_driven(run.scene, *run.model.phase, run.t, run.motion->u()));
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <map>
 #include <span>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "space/boundary/facet_finder.hpp"
@@ -263,28 +264,28 @@ void ContactForce<K, Finder>::add_fit(double t, const double* u, ContactFit& fit
   }
 }
 
+template <Kinematics K, class Finder>
+std::vector<double> ContactForce<K, Finder>::mean_gaps(double t, const double* u) const {
+  std::vector<double> area(surface_.patches().size(), 0.0), gaps = area;
+  for_closed(this->placement(t, u), u, [&](const Touch& touch) {
+    area[touch.patch] += touch.area;
+    gaps[touch.patch] += touch.area * touch.at.distance;
+  });
+  for (std::size_t k = 0; k < gaps.size(); ++k)
+    gaps[k] = area[k] > 0 ? gaps[k] / area[k] : std::numeric_limits<double>::quiet_NaN();
+  return gaps;
+}
+
 // Only pieces that are hardly off it: what is further away has not come there within a phase.
 template <Kinematics K, class Finder>
 auto ContactForce<K, Finder>::ways_to_mean_gap(double t, const double* u) const -> std::vector<Position> {
   constexpr double most = 0.01;  // [cells], about what a phase may add
-  struct Mean {
-    double area = 0, gap = 0;
-  };
-  const RigidPlacement<N> placement = this->placement(t, u);
+  const std::vector<double> gaps = mean_gaps(t, u);
+  if (std::ranges::all_of(gaps, [](double gap) { return std::isnan(gap); })) return {};
   const auto patches = surface_.patches();
-  std::vector<Mean> means(patches.size());
-  bool touches = false;
-  for_closed(placement, u, [&](const Touch& touch) {
-    means[touch.patch].area += touch.area;
-    means[touch.patch].gap += touch.area * touch.at.distance;
-    touches = true;
-  });
-  if (!touches) return {};
   std::vector<Position> ways(surface_.size(), Position::Zero());
-  for_touches(placement, u, most, [&](const Touch& touch) {
-    const Mean& mean = means[touch.patch];
-    if (!(mean.area > 0)) return;
-    const double way = mean.gap / mean.area - touch.at.distance;
+  for_touches(this->placement(t, u), u, most, [&](const Touch& touch) {
+    const double way = gaps[touch.patch] - touch.at.distance;
     if (std::abs(way) <= most * patches[touch.patch].cell) ways[touch.piece] = way * touch.at.normal;
   });
   return ways;

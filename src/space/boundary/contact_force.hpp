@@ -107,6 +107,8 @@ class ContactForce {
   /// Takes the pressures at (t, u) as multipliers.
   void update_multipliers(double t, const double* u);
   void add_fit(double t, const double* u, ContactFit& fit) const;
+  /// The mean gaps of the patches where they bear a pressure, (patches) [m]; NaN of a patch that bears none.
+  std::vector<double> mean_gaps(double t, const double* u) const;
   /// The ways by which pieces of the surface come to the mean gaps of their patches, at the end of a phase, (pieces)
   /// [m]; empty without contact.
   std::vector<Position> ways_to_mean_gap(double t, const double* u) const;

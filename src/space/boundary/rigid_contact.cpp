@@ -1,6 +1,7 @@
 #include "space/boundary/rigid_contact.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -93,17 +94,44 @@ template <Kinematics K>
 void RigidContact<K>::end_phase(double t, const double* u, bool in_place) {
   if (in_place) return surface_.end_phase(u, in_place);
   std::vector<std::vector<Position>> ways, slips;
+  std::vector<std::vector<double>> gaps;
+  std::vector<RigidPlacement<N>> placements;
   for (const RigidBody& rigid : bodies_) {
     ways.push_back(rigid.ways_to_mean_gap(t, u));
     slips.push_back(rigid.slips(t, u));
+    gaps.push_back(rigid.mean_gaps(t, u));
+    placements.push_back(rigid.placement(t, u));
   }
   surface_.end_phase(u, in_place);
   for (const std::vector<Position>& of_body : ways) surface_.move(of_body);
   const std::vector<PieceOrigin> origins = surface_.cut_anew();
   for (std::size_t r = 0; r < bodies_.size() && !origins.empty(); ++r) {
+    surface_.move(ways_of_new_pieces(bodies_[r].finder(), placements[r], gaps[r], origins));
     bodies_[r].follow(origins, slips[r]);
     bodies_[r].anchor_at_start(t, slips[r]);
   }
+}
+
+// A piece in the middle of the line between two on a curved border would lie deeper in the rigid body than they do, and
+// press by the stiffness of a cell times that depth.
+template <Kinematics K>
+auto RigidContact<K>::ways_of_new_pieces(const TouchFinder<K>& finder, const RigidPlacement<N>& placement,
+                                         const std::vector<double>& gaps, const std::vector<PieceOrigin>& origins) const
+    -> std::vector<Position> {
+  constexpr double most = 0.05;  // [cells]
+  std::vector<Position> ways(origins.size(), Position::Zero());
+  for (const auto& patch : surface_.patches()) {
+    if (!finder.touches(patch.body)) continue;
+    for (std::size_t s = patch.begin; s < patch.end; ++s) {
+      const auto& [pieces, patches] = origins[s];
+      const double gap = (gaps[patches[0]] + gaps[patches[1]]) / 2;
+      if (pieces[0] == pieces[1] || std::isnan(gap)) continue;
+      const Nearest<N> at = finder.nearest(TouchFinder<K>::position_of(surface_.start(s)), placement);
+      const double way = gap - at.distance;
+      if (std::abs(way) <= most * patch.cell) ways[s] = way * at.normal;
+    }
+  }
+  return ways;
 }
 
 template <Kinematics K>

@@ -68,6 +68,11 @@ class RigidContact {
   std::size_t of_each() const { return dim * surface_.patches().size(); }
   static std::string name_of(const RigidBody& rigid);
   const char* begin() const { return is_later_stage_ ? "the stage begins" : "the run begins"; }
+  /// The ways by which pieces that were put between two come to the mean of the gaps of their patches; gaps: of the
+  /// patches before, NaN where they bear nothing [m]. origins: of all pieces.
+  std::vector<Position> ways_of_new_pieces(const TouchFinder<K>& finder, const RigidPlacement<N>& placement,
+                                           const std::vector<double>& gaps,
+                                           const std::vector<PieceOrigin>& origins) const;
   void refuse_overlaps(double t) const;
   void refuse_points_inside(const Parts& phase, double t) const;
   /// The material point of a body that it touches which lies deepest in rigid body r; u: null for the start of
