@@ -10,7 +10,6 @@ In a linear body it does what GMRES does in m steps. Leaves compare.json and com
 given), and the picture compare.png beside them. After a build: PYTHONPATH=build/release/python problems/own_relaxation.py
 """
 
-import subprocess
 import sys
 from pathlib import Path
 
@@ -57,7 +56,8 @@ def main():
     )
     for run in sorted(comparison.runs, key=lambda run: run.evaluations):
         print(f"{run.label:<16}{run.status:<12}{run.evaluations:>6} evaluations, error {run.error:.1e}")
-    subprocess.run(["/usr/bin/python3", str(HERE.parent / "scripts/plot_compare.py"), str(out)], check=True)
+    comparison.plot().savefig(out / "compare.png")
+    print(f"Picture: {out / 'compare.png'}")
 
 
 main()

@@ -49,29 +49,17 @@ def page(scenes):
 
 def draw(file):
     """Runs a scene and draws its end."""
-    import numpy as np
     import stillpoint
-    from field_stages import Run, Stage
     from PIL import Image
-    from plot_fields import figure_of
 
     simulation = stillpoint.Simulation(file).run()
-    points = simulation.points
-    strain = getattr(points, "plastic_strain", None)
-    yields = strain is not None and strain.any()
-    values = strain if yields else np.linalg.norm(points.displacement.reshape(len(points), -1), axis=1)
-    place = points.position.reshape(len(points), -1)
-    stage = Stage(simulation.t, None, place, values)
-    scene = read(file)
-    run = Run(file.stem, scene["title"], scene.get("dim", 1), [stage])
-    figure = figure_of([run], "plastic_strain" if yields else "u", {})
     raw = io.BytesIO()
-    figure.savefig(raw, dpi=150)
+    simulation.plot_points().savefig(raw, dpi=150)
     picture = Image.open(raw).convert("RGB")
     small = picture.resize((WIDTH, round(WIDTH * picture.height / picture.width)), Image.Resampling.LANCZOS)
     PICTURES.mkdir(exist_ok=True)
     small.quantize(COLOURS, dither=Image.Dither.NONE).save(PICTURES / f"{file.stem}.png", optimize=True)
-    print(f"{file.stem}: {simulation.status}, {len(points)} points")
+    print(f"{file.stem}: {simulation.status}, {len(simulation.points)} points")
 
 
 def main():

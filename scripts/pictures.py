@@ -1,46 +1,17 @@
-"""What the scripts that draw have in common."""
+"""What the scripts that draw have in common; their look is that of the package's plots."""
 
 import argparse
 import csv
-import json
-import re
 import sys
 from pathlib import Path
 
 import matplotlib
 
+sys.path.append(str(Path(__file__).resolve().parent.parent / "src/python/stillpoint"))
+from plots.folders import Refused  # noqa: E402
+from plots.pictures import COLOURS, STYLE, plain  # noqa: E402, F401
+
 matplotlib.use("Agg")
-
-COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]  # Okabe and Ito
-STYLE = {"axes.spines.top": False, "axes.spines.right": False}
-
-
-class Refused(Exception):
-    """What is wrong with the input."""
-
-
-def read_summary(folder):
-    """(DIR/summary.json, what the picture calls the run): {} without the file, the folder's name without DIR/label."""
-    summary, label = {}, folder.resolve().name
-    try:
-        if (folder / "summary.json").exists():
-            summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-        if (folder / "label").exists():
-            label = (folder / "label").read_text(encoding="utf-8").strip()
-    except (OSError, ValueError) as error:
-        raise Refused(f"{folder}: {error}") from None
-    if not isinstance(summary, dict):
-        raise Refused(f"{folder / 'summary.json'}: expected an object")
-    return summary, label
-
-
-def title_of(summary):
-    return str(summary.get("title") or summary.get("scene") or "")
-
-
-def plain(text):
-    """Text of a file as it stands: no formula for matplotlib to set, but π by its letter."""
-    return re.sub(r"\bpi\b", "π", text).replace("$", r"\$")
 
 
 def finish(program, draw, file):
@@ -52,20 +23,6 @@ def finish(program, draw, file):
         return 2
     print(f"Picture: {file}")
     return 0
-
-
-def read_study(folder, name, *keys):
-    """DIR/name.json of a study, an object with one of these keys."""
-    file = folder / f"{name}.json"
-    try:
-        study = json.loads(file.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise Refused(f"{folder}: no {name}.json; is this the folder of `stillpoint {name}`?") from None
-    except (OSError, ValueError) as error:
-        raise Refused(f"{file}: {error}") from None
-    if not isinstance(study, dict) or not any(isinstance(study.get(key), (dict, list)) for key in keys):
-        raise Refused(f"{file}: expected an object with {' or '.join(keys)}")
-    return study
 
 
 def read_table(file, what):
@@ -102,19 +59,3 @@ def draw_table(name, about, read, draw):
     return finish(f"plot_{name}", lambda to: draw(read(file), to), options.out or options.folder / f"{name}.png")
 
 
-def draw_study(name, about, read, draw):
-    """The program plot_NAME.py DIR [--out FILE]; returns the exit status."""
-    parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", metavar="DIR", type=Path)
-    parser.add_argument("--out", metavar="FILE", type=Path)
-    options = parser.parse_args()
-
-    def draw_to(file):
-        study = read(options.folder)
-        try:
-            draw(study, file)
-        except (KeyError, TypeError) as error:
-            missing = f"no {error}" if isinstance(error, KeyError) else error
-            raise Refused(f"{options.folder / name}.json: {missing}") from None
-
-    return finish(f"plot_{name}", draw_to, options.out or options.folder / f"{name}.png")

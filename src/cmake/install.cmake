@@ -27,10 +27,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/stillpointConfigVersion.c
 install(FILES ${PROJECT_BINARY_DIR}/stillpointConfig.cmake ${PROJECT_BINARY_DIR}/stillpointConfigVersion.cmake
               src/cmake/dependencies.cmake
         DESTINATION ${STILLPOINT_CONFIG_DIR} COMPONENT development)
-if(BUILD_SHARED_LIBS)  # what a static library links, CMake alone knows
-  configure_file(src/cmake/stillpoint.pc.in ${PROJECT_BINARY_DIR}/stillpoint.pc @ONLY)
-  install(FILES ${PROJECT_BINARY_DIR}/stillpoint.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
-endif()
+include(src/cmake/pkg_config.cmake)
 
 # --- the command, with what helps to use it --------------------------------------------------------
 install(TARGETS stillpoint_command RUNTIME COMPONENT command)
@@ -39,5 +36,13 @@ execute_process(COMMAND gzip -9nkf ${PROJECT_BINARY_DIR}/stillpoint.1 COMMAND_ER
 install(FILES ${PROJECT_BINARY_DIR}/stillpoint.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
 install(FILES src/command/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
   RENAME stillpoint COMPONENT command)
+set(place site-functions)
+if(CMAKE_INSTALL_PREFIX STREQUAL /usr)
+  set(place vendor-completions)  # where Debian's zsh looks there
+endif()
+install(FILES src/command/completion.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${place}
+  RENAME _stillpoint COMPONENT command)
+install(FILES src/command/completion.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+  RENAME stillpoint.fish COMPONENT command)
 install(DIRECTORY problems DESTINATION ${CMAKE_INSTALL_DATADIR}/stillpoint COMPONENT command
-  FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.stl" PATTERN "*.json" PATTERN "*.md" PATTERN "*.py" PATTERN "*.png")
+  FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.stl" PATTERN "*.msh" PATTERN "*.geo" PATTERN "*.json" PATTERN "*.md" PATTERN "*.py" PATTERN "*.png" PATTERN "*.ipynb")

@@ -1,5 +1,5 @@
 # Debian packages, by `cpack --preset package` (scripts/package): one of each component of src/cmake/install.cmake.
-#   stillpoint              command      the command, its man page, its completion, the scenes
+#   stillpoint              command      the command, its man page, its completions, what draws, the scenes
 #   libstillpoint0          library      the shared library, once for each of STILLPOINT_INSTRUCTION_SETS
 #   libstillpoint-dev       development  headers, CMake package, pkg-config
 #   python3-stillpoint      python       the Python module
@@ -71,7 +71,7 @@ stillpoint_package(command stillpoint "quasi-static equilibrium in the material 
   "${about}This package has the command and its scenes."
   PACKAGE_DEPENDS "libstillpoint0 ${same}"
   PACKAGE_RECOMMENDS "libopenblas0-openmp"
-  PACKAGE_SUGGESTS "python3-stillpoint, stillpoint-multigrid")
+  PACKAGE_SUGGESTS "python3-matplotlib, python3-h5py, python3-stillpoint, stillpoint-multigrid")
 stillpoint_package(library libstillpoint0 "material point method, relaxed to equilibrium - library"
   "${about}This package has the shared library, for several processors of this
 architecture, of which the loader takes the widest that it can."
@@ -86,7 +86,7 @@ stillpoint_package(python python3-stillpoint "material point method, relaxed to 
   "${about}This package has the Python module."
   PACKAGE_SECTION python
   PACKAGE_DEPENDS "libstillpoint0 ${same}, python3 (>= ${python}~), python3 (<< ${next_python}), python3-numpy"
-  PACKAGE_SUGGESTS "python3-matplotlib, stillpoint")
+  PACKAGE_SUGGESTS "python3-matplotlib, python3-h5py, python3-pandas, python3-meshio, stillpoint")
 if(TARGET stillpoint_multigrid)
   stillpoint_package(multigrid stillpoint-multigrid "material point method, relaxed to equilibrium - multigrid mass"
     "${about}This package has what mass.kind = \"multigrid\" needs, for large bodies

@@ -6,6 +6,7 @@
 #include <stillpoint/safety.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,12 +48,24 @@ struct SafetyArguments {
   bool quiet = false;
 };
 
+struct PlotArguments {
+  std::string kind;                            // history, fields, compare or converge
+  std::vector<std::filesystem::path> folders;  // of runs, or of one study
+  std::filesystem::path out;                   // empty: <first folder>/<kind>.png
+  std::string field;                           // empty: chosen
+  std::vector<std::string> cuts;               // "axis=value"
+  std::optional<int> stages;                   // at most
+  bool shows = false;                          // in a window
+};
+
 int run(const RunArguments& arguments);
 int compare(const CompareArguments& arguments);
 int converge(const ConvergeArguments& arguments);
 int safety(const SafetyArguments& arguments);
 int check(const SceneArguments& arguments);
 int spectrum(const SceneArguments& arguments);
+/// Returns only if nothing is drawn: else the process becomes that of the program that draws.
+int plot(const PlotArguments& arguments);
 /// topic: integrators, dampings, relaxations, solvers, materials, bases, keys, or empty for all. format: text, or for
 /// keys alone markdown or schema.
 int list(const std::string& topic, const std::string& format = "text");

@@ -22,13 +22,17 @@ _stillpoint() {
     return
   fi
   case $before in
-    --set)
+    --set | --vary)
       mapfile -t COMPREPLY < <(compgen -W "$(_stillpoint_keys)" -- "$word")
       compopt -o nospace
       return
       ;;
     --out | --resume)
-      if [[ $before == --out || $command == run ]]; then
+      if [[ $before == --out && $command == plot ]]; then
+        mapfile -t COMPREPLY < <(compgen -f -- "$word")
+        compopt -o filenames
+        return
+      elif [[ $before == --out || $command == run ]]; then
         mapfile -t COMPREPLY < <(compgen -d -- "$word")
         compopt -o filenames
         return
@@ -38,11 +42,22 @@ _stillpoint() {
     --integrators) mapfile -t COMPREPLY < <(compgen -W "$(_stillpoint_names integrators)" -- "$word"); return ;;
     --refine) mapfile -t COMPREPLY < <(compgen -W "h points step rtol motion" -- "$word"); return ;;
     --format) mapfile -t COMPREPLY < <(compgen -W "text markdown schema" -- "$word"); return ;;
+    --field) mapfile -t COMPREPLY < <(compgen -W "plastic_strain u u_x u_y u_z v stress_xx stress_yy stress_zz stress_xy layers" -- "$word"); return ;;
+    --cut)
+      mapfile -t COMPREPLY < <(compgen -W "x= y= z=" -- "$word")
+      compopt -o nospace
+      return
+      ;;
   esac
   if [[ $word == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$(stillpoint "$command" --help 2>/dev/null | grep -oE -- '^ +(-h,)?--[a-z-]+' | grep -oE -- '--[a-z-]+')" -- "$word")
   elif [[ $command == list ]]; then
     mapfile -t COMPREPLY < <(compgen -W "integrators dampings relaxations solvers materials solutions bases keys" -- "$word")
+  elif [[ $command == plot && $COMP_CWORD == 2 ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "history fields compare converge" -- "$word")
+  elif [[ $command == plot ]]; then
+    mapfile -t COMPREPLY < <(compgen -d -- "$word")
+    compopt -o filenames
   else
     mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$word"; compgen -d -- "$word")
     compopt -o filenames

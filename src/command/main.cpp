@@ -124,6 +124,27 @@ CLI::App& add_safety(CLI::App& app, SafetyArguments& arguments) {
   return safety;
 }
 
+CLI::App& add_plot(CLI::App& app, PlotArguments& arguments) {
+  CLI::App& plot = *app.add_subcommand("plot", "draw what the folder of a run or a study holds");
+  plot.add_option("KIND", arguments.kind, "history or fields of runs; compare or converge, of a study of that name")
+      ->check(CLI::IsMember({"history", "fields", "compare", "converge"}))
+      ->required();
+  plot.add_option("DIR", arguments.folders, "folders of runs, side by side, or that of a study")->required();
+  plot.add_option("--out", arguments.out, "picture to write: png, pdf, svg, ... (default: DIR/<kind>.png)")
+      ->type_name("FILE");
+  plot.add_option("--field", arguments.field,
+                  "of fields: plastic_strain, stress_xy, u, u_x, layers, ... (default: plastic_strain, or u)")
+      ->type_name("NAME");
+  plot.add_option("--cut", arguments.cuts, "of fields in space: take away what lies before x=VALUE, y= or z=")
+      ->type_name("AXIS=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  plot.add_option("--stages", arguments.stages, "of fields: so many at most (default: 6, or 3 of each of several runs)")
+      ->check(CLI::Range(1, 1000));
+  plot.add_flag("--show", arguments.shows, "open a window with it as well");
+  return plot;
+}
+
 // A check for the number of threads: the word "auto" becomes 0.
 std::string number_or_auto(std::string& text) {
   constexpr std::string_view all_or_one = "auto";
@@ -180,6 +201,9 @@ int dispatch(int argc, char** argv) {
       *app.add_subcommand("spectrum", "frequencies, critical damping and critical steps of a scene");
   add_scene(spectrum_app, scene_arguments);
 
+  PlotArguments plot_arguments;
+  CLI::App& plot_app = add_plot(app, plot_arguments);
+
   std::string topic;
   CLI::App& list_app = *app.add_subcommand("list", "what there is to choose from");
   list_app
@@ -225,6 +249,7 @@ int dispatch(int argc, char** argv) {
   }
   if (check_app.parsed()) return check(scene_arguments);
   if (spectrum_app.parsed()) return spectrum(scene_arguments);
+  if (plot_app.parsed()) return plot(plot_arguments);
   if (format != "text" && topic != "keys") {
     fmt::print(stderr, "--format {}: goes with the topic keys only\n", format);
     return bad_input;

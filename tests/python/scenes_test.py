@@ -64,14 +64,14 @@ def _(_folder):
     assert list(told(table)) == ["variant[0].set"], told(table)
 
 
-@claim("what only the set-up of a dictionary finds is told by its key, and of an override as of --set")
+@claim("what only the set-up of a dictionary finds is told by its key, and so it is of an override")
 def _(_folder):
     table = table_of(BAR)
     for refine, where in ("motion", "phase"), ("rtol", "integrator"):
         error = raised(stillpoint.SceneError, stillpoint.converge, table, refine=[refine])
         assert [(problem.where, problem.line) for problem in error.problems] == [(where, 0)], error.problems
     error = raised(stillpoint.SceneError, stillpoint.converge, table, {"grid.cells": 0})
-    assert [problem.where for problem in error.problems] == ["--set grid.cells=0"], error.problems
+    assert [problem.where for problem in error.problems] == ["grid.cells"], error.problems
 
 
 @claim("everything wrong with a file is told at once, with line and column")
@@ -93,7 +93,31 @@ def _(_folder):
     wide = stillpoint.load(BAR, probe=[{"name": "end", "at": 10.0, "fields": ["u"]}])
     assert list(stillpoint.Simulation(wide).summary.probes) == ["end"]
     error = raised(stillpoint.SceneError, stillpoint.load, BAR, damping={"c": -1})
-    assert error.problems[0].where == "--set damping.c=-1" and not error.problems[0].line
+    assert error.problems[0].where == "damping.c" and not error.problems[0].line
+
+
+@claim("what is wrong with an override is told by its key, without a word of the command's options")
+def _(_folder):
+    def told(overrides):
+        error = raised(stillpoint.SceneError, stillpoint.load, BAR, overrides)
+        assert "--" not in str(error), error
+        return {problem.where: problem.message for problem in error.problems}
+
+    assert told({"damping.c": -1}) == {"damping.c": "must be at least 0, not -1"}
+    both = told({"damping": {"strategy": "viscos", "c": "pi/"}})
+    assert set(both) == {"damping.strategy", "damping.c"} and both["damping.strategy"].startswith("unknown value 'viscos'")
+    assert list(told({"probe": [{"name": "x", "at": 1, "fields": ["heat"]}]})) == ["probe[0].fields[0]"]
+    assert "there is no" in told({"probe[7].at": 3})["probe[7].at"]
+    assert "an override can" in told({"grid": {"a b": 1}})["grid.a b"]
+    state = stillpoint.StateError("it is of the scene with --set damping.c=1 --set grid.cells=5, expected one without --set")
+    assert str(state) == "it is of the scene with damping.c=1 grid.cells=5, expected one without overrides"
+
+
+@claim("a scene's error that was pickled, as by a pool of processes, has the same problems")
+def _(_folder):
+    error = raised(stillpoint.SceneError, stillpoint.load, BAR, {"damping.c": -1})
+    again = pickle.loads(pickle.dumps(error))
+    assert type(again) is stillpoint.SceneError and again.problems == error.problems and str(again) == str(error)
 
 
 @claim("numpy's numbers and arrays, paths and tuples are values of a scene, and nothing else is")

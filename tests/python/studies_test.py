@@ -142,7 +142,7 @@ def _(_folder):
     assert "'x'" in str(raised(ValueError, stillpoint.converge, BAR, refine=["x"]))
     assert "vary: List[str]" in str(raised(TypeError, stillpoint.converge, BAR, vary="grid.cells=4,8"))
     error = raised(stillpoint.SceneError, stillpoint.converge, BAR, vary=["grid.cells=4"])
-    assert error.problems[0].where == "--vary grid.cells=4", error.problems
+    assert error.problems[0].where == "vary grid.cells=4", error.problems
 
 
 @claim("a convergence study has its errors as arrays of the levels, and falls by the order of the basis")

@@ -9,6 +9,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(sys.argv[1])  # the source tree
+PLOTS = ROOT / "src/python/stillpoint/plots"
 CLAIMS = {}
 
 
@@ -20,6 +21,17 @@ def call(*command, **options):
     return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
 
 
+def plot(kind, *arguments, **options):
+    """By the folder that `stillpoint plot` runs."""
+    return call("/usr/bin/python3", PLOTS, kind, *arguments, **options)
+
+
+def plots_module(name):
+    """A module of that folder, without the package around it."""
+    sys.path.append(str(PLOTS.parent))
+    return importlib.import_module(f"plots.{name}")
+
+
 def script_module(name):
     """A script of ROOT/scripts as a module."""
     sys.path.insert(0, str(ROOT / "scripts"))
@@ -27,10 +39,11 @@ def script_module(name):
 
 
 def copy_of_scripts(folder, program):
-    """scripts/ with stubs for what installs, builds and computes; returns their folder, and an environment in which a
+    """scripts/ and what draws, with stubs for what installs, builds and computes; returns their folder, and an environment in which a
     program that writes to $CALLS does so to folder/calls."""
     root = folder / "a copy"
     shutil.copytree(ROOT / "scripts", root / "scripts")
+    shutil.copytree(PLOTS, root / PLOTS.relative_to(ROOT))
     (root / "build/release").mkdir(parents=True)
     stubs = {"scripts/install_packages": "", "scripts/build_preset": "", "build/release/stillpoint": program}
     for name, text in stubs.items():

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""compare_test.py ROOT CLAIM PROGRAM: one claim about scripts/compare and scripts/plot_compare.py."""
+"""compare_test.py ROOT CLAIM PROGRAM: one claim about scripts/compare and its picture."""
 
 import json
 
-from claims import ROOT, call, check_the_claim, claim, copy_of_scripts, script_module
+from claims import ROOT, call, check_the_claim, claim, copy_of_scripts, plot, plots_module
 
 RUN = {
     "label": "viscous 0.9",
@@ -40,15 +40,14 @@ def write(folder, comparison):
 
 
 def figure_of(folder, comparison):
-    """What plot_compare draws: (axis by evaluations, axis by time)."""
-    plot_compare = script_module("plot_compare")
-    plot_compare.draw(plot_compare.read(write(folder, comparison)), folder / "a.png")
-    return plot_compare.plt.gcf().axes
+    """What is drawn: (axis by evaluations, axis by time)."""
+    compare = plots_module("compare")
+    return compare.figure_of(compare.read(write(folder, comparison))).axes
 
 
 def is_refused(folder, *words):
-    """plot_compare.py ends with status 2, says these words in one line, and draws nothing."""
-    result = call(ROOT / "scripts/plot_compare.py", folder)
+    """Drawing ends with status 2, says these words in one line, and draws nothing."""
+    result = plot("compare", folder)
     assert result.returncode == 2, result
     assert all(word in result.stderr for word in words) and result.stderr.count("\n") == 1, result.stderr
     assert not (folder / "compare.png").exists()
@@ -56,10 +55,10 @@ def is_refused(folder, *words):
 
 @claim("a comparison is drawn into compare.png, or elsewhere")
 def _(folder):
-    result = call(ROOT / "scripts/plot_compare.py", write(folder, COMPARISON))
+    result = plot("compare", write(folder, COMPARISON))
     assert result.returncode == 0 and result.stdout == f"Picture: {folder / 'compare.png'}\n", result
     assert not result.stderr and (folder / "compare.png").read_bytes().startswith(b"\x89PNG")
-    result = call(ROOT / "scripts/plot_compare.py", folder, "--out", folder / "a.pdf")
+    result = plot("compare", folder, "--out", folder / "a.pdf")
     assert result.returncode == 0 and (folder / "a.pdf").read_bytes().startswith(b"%PDF"), result
 
 

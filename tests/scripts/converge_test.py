@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""converge_test.py ROOT CLAIM PROGRAM: one claim about scripts/converge and scripts/plot_converge.py."""
+"""converge_test.py ROOT CLAIM PROGRAM: one claim about scripts/converge and its picture."""
 
 import json
 import math
 
-from claims import ROOT, call, check_the_claim, claim, copy_of_scripts, script_module
+from claims import call, check_the_claim, claim, copy_of_scripts, plot, plots_module
 
 LEVEL = {"size": 0.5, "wall_s": 0.1, "status": "equilibrium"}
 ORDER = {"order": 2.0, "low": 1.9, "high": 2.1, "theory": 2.0, "levels": [1, 3]}
@@ -45,9 +45,14 @@ def write(folder, study):
     return folder
 
 
+def figure_of(folder, study):
+    converge = plots_module("converge")
+    return converge.figure_of(converge.read(write(folder, study)))
+
+
 def is_refused(folder, *words):
-    """plot_converge.py ends with status 2, says these words in one line, and draws nothing."""
-    result = call(ROOT / "scripts/plot_converge.py", folder)
+    """Drawing ends with status 2, says these words in one line, and draws nothing."""
+    result = plot("converge", folder)
     assert result.returncode == 2, result
     assert all(word in result.stderr for word in words) and result.stderr.count("\n") == 1, result.stderr
     assert not (folder / "converge.png").exists()
@@ -61,9 +66,7 @@ def slopes_of(axis):
 
 @claim("a convergence study is drawn with a line a quantity, its order, and lines of the orders that theory knows")
 def _(folder):
-    plot_converge = script_module("plot_converge")
-    plot_converge.draw(plot_converge.read(write(folder, STUDY)), folder / "a.png")
-    by_size, by_time = plot_converge.plt.gcf().axes
+    by_size, by_time = figure_of(folder, STUDY).axes
     lines = {line.get_label(): line for line in by_size.lines if not line.get_label().startswith("_")}
     assert list(lines) == ["u_l2: 2.00 (1.90 to 2.10)", "end.u: 2.00"], lines
     assert lines["u_l2: 2.00 (1.90 to 2.10)"].get_xydata().tolist() == [[0.5, 0.16], [0.25, 0.04], [0.125, 0.01]]
@@ -72,14 +75,13 @@ def _(folder):
     assert list(slopes) == [2] and [text.get_text() for text in by_size.texts] == ["2"], slopes
     assert slopes[2][0][0] == 0.125 and slopes[2][1][0] == 0.5 and slopes[2][0][1] < 0.01, slopes
     assert by_time.lines[0].get_xdata().tolist() == [0.1, 0.3, 1.0]
-    assert (folder / "a.png").read_bytes().startswith(b"\x89PNG")
+    result = plot("converge", folder, "--out", folder / "a.png")
+    assert result.returncode == 0 and (folder / "a.png").read_bytes().startswith(b"\x89PNG"), result
 
 
 @claim("of varied values each has its line in both parts of the picture, with the slope of its own theory")
 def _(folder):
-    plot_converge = script_module("plot_converge")
-    plot_converge.draw(plot_converge.read(write(folder, VARIED)), folder / "a.png")
-    by_size, by_time = plot_converge.plt.gcf().axes
+    by_size, by_time = figure_of(folder, VARIED).axes
     lines = {line.get_label(): line for line in by_size.lines if not line.get_label().startswith("_")}
     assert list(lines) == ["grid.basis=linear: 2.00 (1.90 to 2.10)", "grid.basis=cubic: 4.00 (1.90 to 2.10)"], lines
     assert by_size.get_ylabel().startswith("u_l2: error"), by_size.get_ylabel()
@@ -90,13 +92,11 @@ def _(folder):
 
 @claim("where theory knows no order the line beside errors has the whole one nearest to what was measured, below all of them")
 def _(folder):
-    plot_converge = script_module("plot_converge")
     measured = ORDER | {"order": 2.6, "low": None, "high": None, "theory": None}
     errors = {"fast": [0.8, 0.1, 0.05], "slow": [0.5, 0.45, 0.4], "two": [0.04, 0.01, None], "one": [0.3, None, None]}
     quantities = {name: {"values": values, "errors": values} for name, values in errors.items()}
     study = STUDY | {"quantities": quantities, "orders": {"fast": measured, "slow": None, "two": None, "one": None}}
-    plot_converge.draw(plot_converge.read(write(folder, study)), folder / "a.png")
-    axis = plot_converge.plt.gcf().axes[0]
+    axis = figure_of(folder, study).axes[0]
     slopes = slopes_of(axis)
     assert sorted(slopes) == [1, 2, 3], slopes  # 2.6, 0.17 of two levels, and 2
     for order, name in ((3, "fast"), (1, "slow"), (2, "two")):

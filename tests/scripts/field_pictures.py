@@ -1,7 +1,7 @@
 """What the tests of pictures of fields have in common."""
 
 import h5py
-from claims import ROOT, call, script_module
+from claims import plot, plots_module
 
 
 def write(folder, frames, dim=2):
@@ -18,14 +18,13 @@ def write(folder, frames, dim=2):
 
 
 def figure_of(folders, field=None, wanted=6, cuts=()):
-    plot_fields = script_module("plot_fields")
-    runs, field = plot_fields.read_runs(folders, field, wanted)
-    return plot_fields.figure_of(runs, field, plot_fields.read_cuts(cuts))
+    runs, field = plots_module("field_files").read_runs(folders, field, wanted)
+    return plots_module("fields").figure_of(runs, field, plots_module("field_space").read_cuts(cuts))
 
 
 def is_refused(words, *arguments):
-    """plot_fields.py ends with status 2, says these words in one line, and draws nothing."""
-    result = call(ROOT / "scripts/plot_fields.py", *arguments)
+    """Drawing fields ends with status 2, says these words in one line, and draws nothing."""
+    result = plot("fields", *arguments)
     assert result.returncode == 2 and all(word in result.stderr for word in words), result
     assert result.stderr.count("\n") == 1, result.stderr
     assert not list(arguments[0].glob("*.png"))

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""plot_fields_test.py ROOT CLAIM PROGRAM: one claim about scripts/plot_fields.py. PROGRAM is write_fields."""
+"""plot_fields_test.py ROOT CLAIM PROGRAM: one claim about the pictures of fields. PROGRAM is write_fields."""
 
 import json
 import sys
 
 import numpy as np
-from claims import ROOT, call, check_the_claim, claim
+from claims import call, check_the_claim, claim, plot
 from field_pictures import figure_of, is_refused, write
 
 SIDE = 0.1  # between the points of a_body
@@ -33,7 +33,9 @@ def panels_of(figure):
 
 @claim("fields that are not there or cannot be drawn are refused with status 2, with those on offer")
 def _(folder):
-    is_refused([str(folder), "no fields.h5"], folder)
+    is_refused([str(folder), "no fields.h5; does the scene"], folder)
+    (folder / "fields.pvd").touch()
+    is_refused([str(folder), "no fields.h5", 'output.format = ["xdmf", "vtu"]'], folder)
     (folder / "fields.h5").write_text("no HDF5")
     is_refused(["fields.h5", "signature"], folder)
     is_refused(["no frames"], write(folder, []))
@@ -45,12 +47,12 @@ def _(folder):
     is_refused(["no field 'u_z'"], folder, "--field", "u_z")
     bar = write(folder / "bar", [{"t": 0.0, "place": a_body(rows=1), "u": np.ones(40)}], dim=1)
     is_refused(["no field 'layers'"], bar, "--field", "layers")
-    is_refused(["--cut x=1", "only a body in space"], bar, "--cut", "x=1")
+    is_refused(["the cut x=1", "only a body in space"], bar, "--cut", "x=1")
     is_refused(["one picture"], a_shear(folder), bar, "--field", "u")
     for stage in ({"t": 0}, {"t": 0, "slope_angle": "steep"}):
         (folder / "summary.json").write_text(json.dumps({"stages": [stage], "probes": ASKED}))
         is_refused(["summary.json", "slope_angle"], folder)
-    result = call(ROOT / "scripts/plot_fields.py", folder, "--stages", "0")
+    result = plot("fields", folder, "--stages", "0")
     assert result.returncode == 2 and "one at least" in result.stderr
 
 
@@ -58,10 +60,10 @@ def _(folder):
 def _(folder):
     for what in ("plane", "bar", "space"):
         call(sys.argv[3], what, folder / what)
-        result = call(ROOT / "scripts/plot_fields.py", folder / what)
+        result = plot("fields", folder / what)
         assert result.returncode == 0 and result.stdout == f"Picture: {folder / what / 'fields.png'}\n", result
         assert not result.stderr and (folder / what / "fields.png").read_bytes().startswith(b"\x89PNG")
-    result = call(ROOT / "scripts/plot_fields.py", folder / "plane", "--field", "stress_xy", "--out", folder / "a.pdf")
+    result = plot("fields", folder / "plane", "--field", "stress_xy", "--out", folder / "a.pdf")
     assert result.returncode == 0 and (folder / "a.pdf").read_bytes().startswith(b"%PDF"), result
 
 

@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""plot_space_test.py ROOT CLAIM PROGRAM: one claim about what scripts/plot_fields.py draws of a body in space."""
+"""plot_space_test.py ROOT CLAIM PROGRAM: one claim about the pictures of a body in space."""
 
 import json
 
 import numpy as np
-from claims import check_the_claim, claim, script_module
+from claims import check_the_claim, claim, plots_module
 from field_pictures import figure_of, is_refused, write
+from matplotlib import colormaps
+from matplotlib.colors import to_rgb
 
 OUTER, INNER = 1, 2  # materials
 
@@ -32,7 +34,7 @@ class Pixels:
 
     def position(self, place):
         """(column, row) of a place, from the picture's upper left corner."""
-        projected = script_module("surface_image").projected(np.array(place, dtype=float))
+        projected = plots_module("surface_image").projected(np.array(place, dtype=float))
         column, row = self.panel.transData.transform(projected)
         return np.array([column, len(self.picture) - row])
 
@@ -42,9 +44,7 @@ class Pixels:
 
     def material_at(self, place):
         """The one whose colour is nearest in hue: light and shadow change how bright it is."""
-        colours = script_module("matplotlib.colors").to_rgb
-        pictures = script_module("pictures")
-        hues = np.array([colours(pictures.COLOURS[k]) for k in (0, 1)])
+        hues = np.array([to_rgb(plots_module("pictures").COLOURS[k]) for k in (0, 1)])
         unit = lambda colour: colour / np.linalg.norm(colour, axis=-1, keepdims=True)  # noqa: E731
         return (OUTER, INNER)[np.argmax(unit(hues) @ unit(self.at(place)))]
 
@@ -80,11 +80,11 @@ def _(folder):
 
 @claim("neighbours in space leave no gap between them, coarse or fine")
 def _(folder):
-    surface_image = script_module("surface_image")
+    surface_image = plots_module("surface_image")
     for number in (3, 10, 47):
         place = a_block(number, number, number, spacing=1 / number)
         window = surface_image.Window(np.array([-0.8, -0.9]), 250, 400, 450)
-        image, _ = surface_image.surface_image(place, place, script_module("field_stages").spacing_of(place), window)
+        image, _ = surface_image.surface_image(place, place, plots_module("field_stages").spacing_of(place), window)
         corners = surface_image.projected(a_block(2, 2, 2, spacing=1 - 1 / number) + (2 / number - 1) / 2)
         across, up = (np.indices((450, 400))[::-1] + 0.5) / 250 + window.low[:, None, None]
         inside = (np.abs(across) < corners[:, 0].max()) & (
@@ -95,7 +95,7 @@ def _(folder):
 
 @claim("points deep inside of a body in space are left out, which changes nothing that one sees")
 def _(folder):
-    surface_image = script_module("surface_image")
+    surface_image = plots_module("surface_image")
     place = a_block(40, 40, 40, spacing=0.025)
     place[:, 1] *= 1 - 0.5 * place[:, 0] ** 2
     window = surface_image.Window(np.array([-0.8, -0.9]), 200, 320, 360)
@@ -114,7 +114,7 @@ def _(folder):
     pixels = Pixels(figure)
     top, front, side = (pixels.at(at) for at in ([0.6, 1.2, 0.6], [0.6, 0.6, 1.2], [1.2, 0.6, 0.6]))
     assert top.sum() > 1.15 * front.sum() and front.sum() > 1.1 * side.sum(), (top, front, side)
-    in_the_bar = script_module("matplotlib.pyplot").get_cmap("viridis")(0.5)  # the one value that there is
+    in_the_bar = colormaps["viridis"](0.5)  # the one value that there is
     assert np.allclose(top, in_the_bar[:3], atol=0.16)
 
 
@@ -148,7 +148,7 @@ def _(folder):
         is_refused([f"--cut {cut}:", "expected x=VALUE"], folder, "--cut", cut)
     is_refused(["--cut y=2:", "already"], folder, "--cut", "y=1", "--cut", "y=2")
     for cut in ("z=2.5", "z=-0.5"):
-        is_refused([f"--cut {cut}:", "between z = 0.05 and 1.95"], folder, "--cut", cut)
+        is_refused([f"the cut {cut}:", "between z = 0.05 and 1.95"], folder, "--cut", cut)
     place = a_block(8, 8, 1)
     is_refused(["only a body in space"], write(folder, [{"t": 0.0, "place": place, "u": place}]), "--cut", "x=0.3")
 
@@ -189,7 +189,7 @@ def _(folder):
 
 @claim("layers of a body in space are cubes of the undeformed one")
 def _(folder):
-    layers = script_module("field_stages").Layers(a_block(16, 24, 16))
+    layers = plots_module("field_stages").Layers(a_block(16, 24, 16))
     assert layers.rows == 2
     colours = layers.colours(a_block(16, 24, 16)).reshape(16, 24, 16, 4)
     assert len(np.unique(colours.reshape(-1, 4), axis=0)) == 4

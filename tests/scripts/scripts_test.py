@@ -6,7 +6,7 @@ import os
 import shutil
 import sys
 
-from claims import ROOT, call, check_the_claim, claim, copy_of_scripts, script_module
+from claims import ROOT, call, check_the_claim, claim, copy_of_scripts, plot, plots_module
 
 HEADER = "t,steps,rhs_evaluations,residual,kinetic_energy,p6.u,p6.stress\n"
 HISTORY = HEADER + "0,0,1,1,0,0,0\n1,10,11,0.5,0.1,0.001,0.002\n2,20,21,,0,0.002,0.001\n"
@@ -30,8 +30,8 @@ exit 3
 
 
 def is_refused(folder, *words):
-    """plot_history.py ends with status 2, says these words in one line, and draws nothing."""
-    result = call(ROOT / "scripts/plot_history.py", folder)
+    """Drawing a history ends with status 2, says these words in one line, and draws nothing."""
+    result = plot("history", folder)
     assert result.returncode == 2, result
     assert all(word in result.stderr for word in words) and result.stderr.count("\n") == 1, result.stderr
     assert not (folder / "history.png").exists()
@@ -40,6 +40,16 @@ def is_refused(folder, *words):
 def a_history_is_refused(folder, text, *words):
     (folder / "history.csv").write_text(text)
     is_refused(folder, *words)
+
+
+@claim("the programs that draw go by their earlier names too")
+def _(folder):
+    (folder / "history.csv").write_text("t,steps,u\n0,0,0\n1,1,2\n")
+    result = call(ROOT / "scripts/plot_history.py", folder)
+    assert result.returncode == 0 and (folder / "history.png").exists(), result
+    for kind, file in (("fields", "fields.h5"), ("compare", "compare.json"), ("converge", "converge.json")):
+        result = call(ROOT / f"scripts/plot_{kind}.py", folder)
+        assert result.returncode == 2 and f"no {file}" in result.stderr, result
 
 
 @claim("a folder without a history is refused with status 2")
@@ -63,9 +73,9 @@ def _(folder):
 
 
 def panels_of(*folders):
-    """{field: (label, x, lines)} of the panels that plot_history.py draws, in their order."""
-    plot_history = script_module("plot_history")
-    panels = plot_history.panels_of([plot_history.read_run(folder) for folder in folders])
+    """{field: (label, x, lines)} of the panels that are drawn, in their order."""
+    read_run = plots_module("history_runs").read_run
+    panels = plots_module("history_panels").panels_of([read_run(folder) for folder in folders])
     return {field: (panel.label, panel.x_label, panel.names()) for field, panel in panels.items()}
 
 
@@ -74,7 +84,7 @@ def written(folder, text, **summary):
     folder.mkdir(exist_ok=True)
     (folder / "history.csv").write_text(text)
     (folder / "summary.json").write_text(json.dumps(summary))
-    result = call(ROOT / "scripts/plot_history.py", folder)
+    result = plot("history", folder)
     assert result.returncode == 0 and not result.stderr and (folder / "history.png").stat().st_size > 0, result
     return folder
 
@@ -130,9 +140,7 @@ def _(folder):
         panels = panels_of(*some)
         assert list(panels) == ["load", "residual", "energy"], panels
         assert panels["load"] == (r"load factor $\lambda$", "mean displacement along the loads [m]", []), panels
-    plot_history = script_module("plot_history")
-    plot_history.draw(*plot_history.find_runs(runs), folder / "both.png")
-    axis = plot_history.plt.gcf().axes[0]
+    axis = plots_module("history").figure_of(*plots_module("history_runs").find_runs(runs)).axes[0]
     assert [line.get_xydata().tolist() for line in axis.lines] == [[[0, 0], [q, 3], [0.004, 5]] for q in (0.001, 0.002)]
 
 
@@ -149,9 +157,7 @@ def _(folder):
     assert list(panels)[:3] == ["plate", "punch", "force"] and "motion" not in panels, panels
     assert panels["plate"] == ("force of plate [N]", "its displacement [m]", [])
     assert panels["punch"] == ("force of punch along y [N]", "its displacement along y [m]", [])
-    plot_history = script_module("plot_history")
-    plot_history.draw(*plot_history.find_runs([folder]), folder / "a.png")
-    axis = plot_history.plt.gcf().axes[1]
+    axis = plots_module("history").figure_of(*plots_module("history_runs").find_runs([folder])).axes[1]
     assert axis.lines[0].get_xydata().tolist() == [[0, 0], [-0.3, -7]] and axis.get_xlim() == (0, -0.3)
 
 

@@ -9,6 +9,7 @@ from claims import ROOT, call, check_the_claim, claim
 
 
 TUTORIALS = sorted((ROOT / "problems/tutorials").glob("*.md"))
+NOTEBOOKS = sorted((ROOT / "problems/tutorials").glob("*.ipynb"))  # tests/python/notebook_test.py runs them
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 
 
@@ -163,7 +164,7 @@ def _(_folder):
     for page in (ROOT / "README.md", ROOT / "problems/manual/README.md"):
         text = page.read_text(encoding="utf-8")
         listed = {(page.parent / link).resolve() for link in LINK.findall(text) if "tutorials/" in link}
-        assert listed == {one.resolve() for one in TUTORIALS}, page
+        assert listed == {one.resolve() for one in TUTORIALS + NOTEBOOKS}, page
 
 
 @claim("every scene that the README and the manual show has a name, and a command of the page runs it")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import NamedTuple
 
 
@@ -18,15 +19,34 @@ class Problem(NamedTuple):
         return f"{place}: {self.message}"
 
 
+def _by_key(problem: Problem) -> Problem:
+    """What is wrong with an override, told by its key as with a dictionary. The library tells it by the command's options."""
+    option, _, setting = problem.where.partition(" ")
+    if option == "--vary":
+        return problem._replace(where=f"vary {setting}")
+    if option != "--set":
+        return problem
+    key, message = setting.partition("=")[0], problem.message.replace("--set", "an override")
+    told = re.match(rf"({re.escape(key)}[^\s:]*): ", message)  # or of what is in it: probe[0].at
+    where = told[1] if told else key
+    return problem._replace(where=where, message=message[told.end() :] if told else message)
+
+
 class SceneError(ValueError):
     """All that is wrong with a scene, found at once; .problems has each."""
 
     problems: tuple[Problem, ...]
 
     def __init__(self, problems: tuple[Problem, ...]) -> None:
-        super().__init__("\n".join(map(str, problems)))
-        self.problems = problems
+        self.problems = tuple(map(_by_key, problems))
+        super().__init__("\n".join(map(str, self.problems)))
+
+    def __reduce__(self) -> tuple[type[SceneError], tuple[tuple[Problem, ...]]]:
+        return type(self), (self.problems,)
 
 
 class StateError(ValueError):
     """A checkpoint that cannot be gone on from, and why."""
+
+    def __init__(self, message: str) -> None:
+        super().__init__(message.replace("without --set", "without overrides").replace(" --set ", " "))

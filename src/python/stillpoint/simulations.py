@@ -4,15 +4,25 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
 
 from . import _core
 from .figures import Figures, figures_in, table_of
+from .histories import Drawable, drawn_run, plot_histories
+from .plots.needed import need
+from .point_fields import PointFields, frame_of
 from .progress import Told, close, telling
 from .scenes import Source, scene_of
+
+if TYPE_CHECKING:
+    import meshio  # type: ignore[import]
+    import pandas  # type: ignore[import]
+    from matplotlib.figure import Figure  # type: ignore[import]
+
+    from .plots.history_runs import Run
 
 
 def _path(path: str | os.PathLike[str] | None) -> str:
@@ -26,6 +36,10 @@ class Simulation(_core.Simulation):
     threads: 0: as many as there are, or one where that is quicker. stop(simulation): a stopping test, asked after every
     step beside those of the scene; it returns whether the simulation ends, or why. progress: called a few times a second
     with a dictionary (t, end_time, steps, residual, residual_goal, wall_s), or True for a bar.
+
+    step(until) takes one accepted step, not past time until [s], and returns whether the simulation goes on; run() takes all.
+    .done, .status and .reason say whether and why it has ended; .t [s], .steps, .evaluations and .phases how far it is;
+    .residual and .distance (or None) how far from rest. .points has the fields of the points, .unknowns u, v and the forces.
 
     Steps let go of the GIL. One thread at a time works with a simulation: others get a RuntimeError meanwhile.
     """
@@ -92,6 +106,50 @@ class Simulation(_core.Simulation):
         was resumed has those since then."""
         columns, rows = self.history_rows()
         return table_of(columns, rows, whole=("steps", "rhs_evaluations"))
+
+    def point_fields(self) -> PointFields:
+        """The fields of all points as they are now, by the names of fields.h5: arrays of their own."""
+        return PointFields(frame_of(self, self._scene.dim))
+
+    def plot(self, *others: Drawable, figure: Figure | None = None) -> Figure:
+        """The history so far, with those of other runs beside it, as `stillpoint plot history` draws it.
+
+        others: simulations, folders of runs, or what read_run() returns. figure: an empty one to draw on, such as
+        pyplot's, for which pyplot.show() opens a window; None: a new one, to save by .savefig("history.png") or to be
+        shown as the value of a notebook's cell. ValueError before the first step, ImportError without matplotlib.
+        """
+        return plot_histories([self, *others], figure)
+
+    def plot_points(
+        self, field: str | None = None, *, cut: Mapping[str, float] | None = None, figure: Figure | None = None
+    ) -> Figure:
+        """The points as they are now, coloured by a field, as `stillpoint plot fields` draws them.
+
+        field: a name of fields.h5, such as "plastic_strain", "stress_xy", "u" (its length) or "u_x", or "layers"; None:
+        plastic_strain if some point has yielded, or else u. cut: {"x": 1.5} takes away what lies before the plane x = 1.5 m
+        of a body in space. figure: as of plot(). ValueError if there is no such field, ImportError without matplotlib.
+        """
+        need("matplotlib")
+        from .plots import fields
+        from .plots.field_frames import run_of
+        from .plots.field_space import cuts_of
+
+        run, chosen = run_of([frame_of(self, self._scene.dim)], field, self._label(), self.summary)
+        return fields.figure_of([run], chosen, cuts_of(cut), figure)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The history so far as a table of pandas', a column a figure. ImportError without pandas."""
+        return need("pandas").DataFrame(self.history)
+
+    def to_meshio(self) -> meshio.Mesh:
+        """The points as they are now as a mesh of meshio's, with all their fields: point_fields().to_meshio()."""
+        return self.point_fields().to_meshio()
+
+    def _label(self) -> str:
+        return ", ".join(self._scene.overrides) or self._scene.name
+
+    def _drawn_run(self) -> Run:
+        return drawn_run(self._label(), self._scene.title or self._scene.name, self.status, self.history)
 
     def __repr__(self) -> str:
         return f"<stillpoint.Simulation of '{self._scene.name}': {self.status}, t = {self.t:.6g}, {self.steps} steps>"

@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from .figures import Figures, figures_in, numbers_of, table_of
+from .figures import Figures, figures_in
 from .progress import Told, close, telling
 from .scene_text import override_texts
 from .scenes import Source, scene_of
+from .study_figures import Comparison, Convergence, Safety
 
 
 def _folder(out: str | os.PathLike[str] | None) -> str:
@@ -40,12 +41,12 @@ def compare(
     threads: int = 0,
     out: str | os.PathLike[str] | None = None,
     progress: Told = None,
-) -> Figures:
-    """Many ways to rest side by side: the figures of compare.json.
+) -> Comparison:
+    """Many ways to rest side by side: the figures of compare.json, with plot() and to_pandas().
 
     strategies: dampings, relaxations and static solvers, also those that were added; empty: all. .runs has one each, with
     .samples as a structured array (evaluations, error, residual, distance). out: a folder for compare.csv and
-    compare.json, which scripts/plot_compare.py draws. What a strategy written in Python raises is the .reason of its run.
+    compare.json, which read_study() reads. What a strategy written in Python raises is the .reason of its run.
     """
     told = telling(progress)
     text = _core.compare(
@@ -54,11 +55,7 @@ def compare(
         seconds=seconds, repeats=repeats, seed=seed, overshoot=overshoot, threads=threads,
     )  # fmt: skip
     close(told)
-    study = figures_in(text)
-    for one in study["runs"]:
-        rows = [numbers_of(sample) for sample in one["samples"]]
-        one["samples"] = table_of(study["sample"], rows, whole=("evaluations",))
-    return study
+    return Comparison(figures_in(text))
 
 
 def converge(
@@ -73,8 +70,8 @@ def converge(
     threads: int = 0,
     out: str | os.PathLike[str] | None = None,
     progress: Told = None,
-) -> Figures:
-    """A scene on ever finer levels: the figures of converge.json.
+) -> Convergence:
+    """A scene on ever finer levels: the figures of converge.json, with plot() and to_pandas().
 
     refine: "h", "points", "step", "rtol" or "motion". vary: "key=value,value", a series with each: then .series has one
     study each. .quantities[name].values and .errors are arrays, (levels), and so are .sizes, .dofs and .h.
@@ -87,14 +84,7 @@ def converge(
         refine=refine, levels=levels, ratio=ratio, dominant=dominant, threads=threads,
     )  # fmt: skip
     close(told)
-    study = figures_in(text)
-    for one in study.get("series", [study]):
-        for quantity in one["quantities"].values():
-            quantity.update(values=numbers_of(quantity["values"]), errors=numbers_of(quantity["errors"]))
-        one["sizes"] = numbers_of([level["size"] for level in one["levels"]])
-        one["h"] = numbers_of([level["h"] for level in one["levels"]])
-        one["dofs"] = np.array([level["dofs"] for level in one["levels"]])
-    return study
+    return Convergence(figures_in(text))
 
 
 def safety(
@@ -107,8 +97,8 @@ def safety(
     threads: int = 0,
     out: str | os.PathLike[str] | None = None,
     progress: Told = None,
-) -> Figures:
-    """The factor of safety by strength reduction: the figures of safety.json.
+) -> Safety:
+    """The factor of safety by strength reduction: the figures of safety.json, with to_pandas().
 
     It lies between .factor_low, which rests, and .factor_high, which moves; both are looked for between `first`, with
     which the body has to rest, and `last`, until they are no farther apart than `width`: then .found is True. .verdicts
@@ -121,11 +111,7 @@ def safety(
         width=width, threads=threads,
     )  # fmt: skip
     close(told)
-    study = figures_in(text)
-    rising = sorted(study["verdicts"], key=lambda one: float(one["factor"]))
-    study["factors"] = np.array([one["factor"] for one in rising])
-    study["displacements"] = numbers_of([one["displacement"] for one in rising])
-    return study
+    return Safety(figures_in(text))
 
 
 def spectrum(scene: _core.Scene | Source) -> Figures:

@@ -1,8 +1,14 @@
 """The image of a body of points in space: spheres that hide what is behind them, lit as one surface."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+
+Array = Any  # of numpy
 
 # Isometric, y up: x runs to the right and z to the left, towards the viewer; a metre of each is as long in the picture.
 ACROSS, UP, NEAR = np.array([[1, 0, -1], [-1, 2, -1], [1, 1, 1]]) / np.sqrt([[2], [6], [3]])
@@ -17,18 +23,18 @@ VOXELS = 1e7  # at most
 class Window:
     """The part of the plane across the view that an image shows."""
 
-    low: np.ndarray  # (2) its lower left corner
+    low: Array  # (2) its lower left corner
     scale: float  # pixels a metre
     width: int  # pixels
     height: int
 
 
-def projected(place):
+def projected(place: Array) -> Array:
     """(… × 2): to the right, and up."""
     return place @ np.stack([ACROSS, UP]).T
 
 
-def in_front(view, near, spacing):
+def in_front(view: Array, near: Array, spacing: float) -> Array:
     """Which points are not far behind others: of those in each square of half a spacing, which one sphere covers, three
     spacings are left. view: (points × 2)."""
     square = np.floor(2 * (view - view.min(axis=0)) / spacing).astype(np.int64)
@@ -39,7 +45,7 @@ def in_front(view, near, spacing):
     return near > nearest[square] - 3 * spacing
 
 
-def smoothed(density):
+def smoothed(density: Array) -> Array:
     """The mean with the neighbours, weighted 1 : 2 : 1, along each axis."""
     for axis in range(3):
         at = np.moveaxis(density, axis, 0)
@@ -50,7 +56,7 @@ def smoothed(density):
     return density
 
 
-def normals(place, some, spacing):
+def normals(place: Array, some: Array, spacing: float) -> Array:
     """Unit normals, outwards, at some of the points: down the density of points, counted in voxels of a spacing."""
     low, size = place.min(axis=0), np.ptp(place, axis=0)
     voxel = max(spacing, (size.prod() / VOXELS) ** (1 / 3))
@@ -68,7 +74,7 @@ def normals(place, some, spacing):
     return np.where(length > 1e-3 * density.max(), down / np.maximum(length, 1e-300), NEAR)
 
 
-def lit(colours, normal):
+def lit(colours: Array, normal: Array) -> Array:
     """normal: of any length."""
     normal = normal / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
     normal = normal + np.maximum(FACING - normal @ NEAR, 0)[:, None] * NEAR
@@ -79,15 +85,16 @@ def lit(colours, normal):
 class Spheres:
     """Around points, of one radius, in pixels."""
 
-    def __init__(self, window, view, near, radius):
+    def __init__(self, window: Window, view: Array, near: Array, radius: float) -> None:
         self.window, self.near, self.radius = window, near, radius
         self.view, self.pixel = view, np.floor(view).astype(int)
 
-    def fragments(self):
+    def fragments(self) -> Iterator[tuple[Array, Array, Array, Array]]:
         """(points, a pixel of each, the nearness of its sphere there, 1 − distance²/radius² from its middle): in parts,
         one pixel of all points each, or all pixels of one point: of two for one pixel the nearer point is the last."""
         reach = int(np.ceil(self.radius))
-        points, offsets = np.arange(len(self.near)), np.stack(np.indices((2 * reach + 1,) * 2), axis=-1).reshape(-1, 2)
+        offsets = np.moveaxis(np.indices((2 * reach + 1,) * 2), 0, -1).reshape(-1, 2)
+        points = np.arange(len(self.near))
         if len(points) > len(offsets):
             parts = ((points, offset) for offset in offsets - reach)
         else:
@@ -103,7 +110,7 @@ class Spheres:
             yield which, pixel, self.near[which] + self.radius * np.sqrt(share), share
 
 
-def surface_image(place, colours, spacing, window):
+def surface_image(place: Array, colours: Array, spacing: float, window: Window) -> tuple[Array, Array]:
     """colours: (points × 3), of 0 to 1. Returns the image (height × width × 4), its first row the lowest, and the
     numbers of the points that one sees."""
     view, near = projected(place), place @ NEAR
@@ -126,7 +133,7 @@ def surface_image(place, colours, spacing, window):
     points, pixel, weight = (np.concatenate(part) for part in zip(*close_ones))
     covered = nearest >= 0
 
-    def mean(values):
+    def mean(values: Array) -> Array:
         sums = [np.bincount(pixel, weight * column[points], minlength=pixels)[covered] for column in values.T]
         return np.stack(sums, axis=1) / np.bincount(pixel, weight, minlength=pixels)[covered, None]
 
