@@ -23,6 +23,7 @@ const std::string hexahedra =
 const std::string column = R"(
 dim = 3
 [grid]
+min = [0, 0, 0]
 max = [1, 2, 1]
 cells = [2, 4, 2]
 [[body]]
@@ -90,7 +91,7 @@ TEST_CASE("a mesh that reaches out of the grid, or has no such group, is refused
     text.replace(text.find(what), what.size(), by);
     CHECK_THROWS_WITH(load_scene(folder.write("column.toml", text)), Catch::Contains(message));
   };
-  refuses("max = [1, 2, 1]", "max = [1, 1.5, 1]", "column.toml:11:8: body[1].mesh: reaches from 0.9 to 1.7 along y");
+  refuses("max = [1, 2, 1]", "max = [1, 1.5, 1]", "column.toml:12:8: body[1].mesh: reaches from 0.9 to 1.7 along y");
   refuses("\"upper\"", "\"uper\"", "has no physical group 'uper' of volumes; it has 'lower', 'upper'");
   refuses("mesh = \"column.msh\"\n", "", "goes with mesh");
   refuses("mesh = \"column.msh\"\n", "mesh = \"column.msh\"\nstl = \"a.stl\"\n", "does not go with stl");
