@@ -64,6 +64,16 @@ void check_moves_away(const Summary& s, const std::string& who, const std::strin
   CHECK(s.rhs_evaluations < 1000);
 }
 
+/// A rigid box that is pressed on a block and dragged along it, so that its corner hooks behind places of the block's
+/// top.
+std::string dragged_box(const std::string& more) {
+  return "dim = 2\n[grid]\nmin = [0, 0]\nmax = [4, 2]\ncells = [16, 8]\n[body]\nmax = [4, 1]\nmaterial = 'm'\n"
+         "placement = 'gauss'\n[material.m]\nlaw = 'linear-elastic'\nE = 1e6\nnu = 0.3\nrho = 1000\n"
+         "[[support]]\nface = 'bottom'\n[[rigid]]\nname = 'box'\nmin = [1.5, 1.0]\nmax = [2.5, 1.8]\n"
+         "motion = ['0.1', '-0.05']\n" +
+         more + "\n" + ends;
+}
+
 }  // namespace
 
 TEST_CASE("a free box on a smooth incline comes to no rest behind the places that its sharp corner meets") {
@@ -76,6 +86,24 @@ TEST_CASE("a free box on a smooth incline comes to no rest behind the places tha
   }
   // With friction that is enough it rests by that.
   CHECK(run_text(box_on_incline(1.2, "friction = 0.25")).status == RunStatus::equilibrium);
+}
+
+TEST_CASE("a block that slides on a rigid plane for ever ends the run, which says that it slides and along what") {
+  for (const char* strategy : {"viscous", "auto", "kinetic", "fire"}) {
+    CAPTURE(strategy);
+    const Summary s = run(scenes::load("ladder/incline", {"rigid[0].friction=0.25", "stop.residual=1e-6", "stop.time=0",
+                                                          fmt::format("damping.strategy={}", strategy)}));
+    CHECK(s.status == RunStatus::step_limit);
+    CHECK_THAT(s.reason, Contains("it slides: along rigid body 'slope', 100 % of the body"));
+    CHECK(s.rhs_evaluations < 100'000);
+  }
+}
+
+TEST_CASE("a driven rigid body whose sharp corner drags a border says by how much its force is off") {
+  // A box that is pushed along a block behind the places of its top that feel contact.
+  const Summary s = run_text(dragged_box(""));
+  CHECK(says(s, "a sharp corner of 'box' pushes the places of a border"));
+  CHECK_FALSE(says(run_text(dragged_box("rounding = 0.15")), "a sharp corner of"));
 }
 
 TEST_CASE("a block that falls between smooth plates is told soon to be held by nothing along them") {

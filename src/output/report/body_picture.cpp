@@ -148,7 +148,10 @@ std::vector<double> stored_stress(const Hdf5File& fields, const std::string& fra
 }
 
 bool is_always_there(const std::string& name) {
-  return name == "place" || name == "u" || name == "v" || name == "material" || name.starts_with("stress");
+  constexpr std::array apart = {"place", "u", "v", "material", "volume"};
+  if (std::ranges::find(apart, name) != apart.end() || name.starts_with("stress") || name == "strain") return true;
+  constexpr std::array of_strain = {"xx", "yy", "zz", "xy", "yz", "zx"};
+  return name.starts_with("strain_") && std::ranges::find(of_strain, name.substr(7)) != of_strain.end();
 }
 
 }  // namespace

@@ -48,7 +48,13 @@ Creep::Creep(const RunState& run)
 
 void Creep::observe(RunState& run) {
   if (!watches_ || !run.options.stops || run.t < next_) return;
-  sample(run.t, run.motion->u(), run.loads_settled());
+  // A body that slides for ever is never near balance, and its multipliers are never taken: it is looked at before as
+  // well.
+  const Contact* const contact = phase_.contact();
+  const bool settled = run.loads_stay() && (!contact || contact->is_settled());
+  const bool begins = std::exchange(contact_is_settled_, run.contact_settled) != run.contact_settled;
+  if (begins) has_given_ = gives_ = false;
+  sample(run.t, run.motion->u(), settled && !begins);
   publish(run);
 }
 
@@ -182,7 +188,7 @@ void Creep::archive(const StateArchive& state, RunState& run) {
     if (size != 0 && size != expected) throw StateError("the creep is that of another number of points");
   state("samples", samples_, "sum_t", sum_t_, "block_end", block_end_, "next", next_, "last_t", last_t_,
         "plastic_strain", plastic_strain_, "begun", begun_, "has_given", has_given_, "gives", gives_, "slid", slid_,
-        "steady_since", steady_since_, "begun_at", begun_at_);
+        "steady_since", steady_since_, "begun_at", begun_at_, "contact_is_settled", contact_is_settled_);
   publish(run);
 }
 

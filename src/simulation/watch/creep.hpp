@@ -49,6 +49,7 @@ class Creep : public Watcher {
   bool begun_ = false;                      // whether there was a sample
   bool has_given_ = false, gives_ = false;  // whether the body gave way in any block, and in the last one
   bool slid_ = false;                       // whether it slid in this block
+  bool contact_is_settled_ = false;         // whether the multipliers of contact were settled at the last sample
   double steady_since_ = -1;  // the time from which on the motion gives way and does not slow down [s]; negative: none
   double begun_at_ = 0;       // the time from which on the loads have stayed [s]
 };
