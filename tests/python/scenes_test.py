@@ -4,6 +4,7 @@
 from modules import BAR, ROOT, raised, table_of  # first: finds the package
 
 import math
+import os
 import pickle
 from pathlib import Path
 
@@ -25,6 +26,7 @@ def _(_folder):
 def _(_folder):
     files = [file for file in sorted((ROOT / "problems").glob("*.toml"))]
     assert len(files) > 20
+    os.chdir(ROOT / "problems")  # where a dictionary's files are looked for
     for file in files:
         scene, of_table = stillpoint.load(file), stillpoint.load(table_of(file))
         assert (of_table.title, of_table.dim) == (scene.title, scene.dim), file

@@ -108,6 +108,7 @@ TEST_CASE("the reader takes every key of the table, with an example and with its
         std::vector<std::string> values = {example_of(key, dim)};
         const auto words = key.words_in(dim);
         if (std::ranges::find(words, key.fallback) != words.end()) values.push_back('"' + key.fallback + '"');
+        if (key.shape == Shape::list && key.fallback.starts_with('[')) values.push_back(key.fallback);
         double number = 0;
         const bool one = key.shape == Shape::one && (key.kind == Kind::number || key.kind == Kind::whole);
         std::istringstream fallback(key.fallback);

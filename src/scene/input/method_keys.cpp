@@ -98,7 +98,7 @@ std::string hint(const auto* row, const char* is, const char* key) {
       .key("fields_every", &OutputSpec::fields_every, "or the time between them", {.range = kNotNegative, .unit = "s"})
       .key("format", &OutputSpec::format,
            "of these fields: fields.h5 with fields.xdmf, or fields.pvd and grid.pvd with files of VTK's",
-           {.words = {"xdmf", "vtu"}, .fallback = "xdmf", .list = true});
+           {.words = {"xdmf", "vtu"}, .fallback = "[\"xdmf\"]", .list = true});
 
   tables.add({"checkpoint", "saves the state, for run --resume"}, &Scene::checkpoint)
       .key("every", &CheckpointSpec::every, "time on the clock between them; 0: not by the clock",
