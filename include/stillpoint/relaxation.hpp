@@ -27,7 +27,7 @@ struct RelaxationOptions {
   bool single_phase = true;              // for auto: no other phase will follow
   std::optional<bool> path_dependent{};  // and whether an equilibrium depends on the way to it, as with a yielding law
                                          // or friction; empty: if the system is history_dependent()
-  bool linear = false;  // for auto: Q is linear in u
+  bool linear = false;                   // for auto: Q is linear in u
   CarriedOver from{};
 };
 

@@ -39,8 +39,8 @@ class ConjugateDescent {
 
   /// Begins at w, straight downhill: the first way is h M⁻¹Q with h about 1/ω_max². Q, z = M⁻¹Q: values at w, (n).
   void begin(const Vector& Q, const Vector& z, double h);
-  /// Begins at w once the forces have changed in part, as by new multipliers of a contact: what is remembered of K holds
-  /// on, and the first way is H Q; without a memory as begin().
+  /// Begins at w once the forces have changed in part, as by new multipliers of a contact: what is remembered of K
+  /// holds on, and the first way is H Q; without a memory as begin().
   void begin_again(const Vector& Q, const Vector& z, double h);
   /// Notes an evaluation at w, or at a share of the way to it; Q, z = M⁻¹Q: values there, (n).
   void look_at(const Vector& Q, const Vector& z);
