@@ -185,7 +185,7 @@ Polygon joined(std::vector<Polygon> loops) {
     const Bridge bridge = shortest_bridge(polygon, loops);
     Polygon loop = std::move(loops[bridge.loop]);
     loops.erase(loops.begin() + static_cast<std::ptrdiff_t>(bridge.loop));
-    std::ranges::rotate(loop, loop.begin() + static_cast<std::ptrdiff_t>(bridge.to));
+    std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(bridge.to), loop.end());
     loop.push_back(loop.front());
     const auto at = polygon.begin() + static_cast<std::ptrdiff_t>(bridge.from);
     loop.push_back(*at);

@@ -297,4 +297,14 @@ TEST_CASE("a rigid body whose motion has no value any more ends the run, which s
   CHECK_THAT(s.reason, Catch::Contains("rigid[0].motion") && Catch::Contains("is not a number"));
 }
 
+TEST_CASE("auto goes downhill under a free rigid plate, whose place is no history of the body") {
+  const Summary s =
+      run_ladder("pressed_plate", {"rigid=[{name='plate', half_plane=[[0.0, 'H'], [0.0, -1.0]], free=true, force=['0', "
+                                   "'-M*delta/H*W']}]",
+                                   "stop.residual=1e-6"});
+  CHECK(s.status == RunStatus::equilibrium);
+  CHECK(s.rhs_evaluations < 100);  // 413 of a damped motion, 10 under a pressure
+  CHECK(s.reactions.at("floor").at(1) == Approx(7188.20015).epsilon(1e-5));
+}
+
 }  // namespace stillpoint::test
