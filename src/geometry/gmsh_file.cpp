@@ -79,7 +79,8 @@ class Words {
     return text_.substr(from + 1, to - from - 1);
   }
   void skip(std::size_t count) {
-    for (std::size_t k = 0; k < count; ++k) next();
+    for (std::size_t k = 0; k < count; ++k)
+      if (next().empty()) refuse("the file ends too early");
   }
   void skip_line() { at_ = std::min(text_.find('\n', at_), text_.size()); }
   void skip_section(std::string_view begin) {
@@ -182,8 +183,9 @@ class GmshReader {
       const auto dim = words_.number<std::size_t>("the dimension of an entity");
       words_.skip(1);
       const std::size_t further = words_.number<int>("0 or 1 for parameters") != 0 ? dim : 0;
-      std::vector<std::size_t> tags(words_.number<std::uint32_t>("the number of nodes"));
-      for (std::size_t& tag : tags) tag = words_.number<std::size_t>("the tag of a node");
+      std::vector<std::size_t> tags;
+      for (auto count = words_.number<long>("the number of nodes"); count > 0; --count)
+        tags.push_back(words_.number<std::size_t>("the tag of a node"));
       for (const std::size_t tag : tags) {
         read_node(tag);
         words_.skip(further);

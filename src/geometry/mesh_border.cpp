@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <span>
 #include <utility>
@@ -136,11 +137,15 @@ struct Bridge {
 
 /// The shortest that touches nothing on its way.
 Bridge shortest_bridge(const Polygon& so_far, const std::vector<Polygon>& loops) {
-  std::vector<Bridge> bridges;
-  for (std::size_t loop = 0; loop < loops.size(); ++loop)
-    for (std::size_t to = 0; to < loops[loop].size(); ++to)
+  std::vector<Bridge> bridges;  // from each corner of a loop to the nearest one
+  for (std::size_t loop = 0; loop < loops.size(); ++loop) {
+    for (std::size_t to = 0; to < loops[loop].size(); ++to) {
+      Bridge& shortest = bridges.emplace_back(Bridge{std::numeric_limits<double>::infinity(), 0, loop, to});
       for (std::size_t from = 0; from < so_far.size(); ++from)
-        bridges.push_back({distance(so_far[from], loops[loop][to]), from, loop, to});
+        if (const double length = distance(so_far[from], loops[loop][to]); length < shortest.length)
+          shortest.length = length, shortest.from = from;
+    }
+  }
   std::ranges::sort(bridges, {}, &Bridge::length);
   const auto is_free = [&](const Bridge& bridge) {
     const PlanePoint &a = so_far[bridge.from], &b = loops[bridge.loop][bridge.to];

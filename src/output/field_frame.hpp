@@ -1,6 +1,7 @@
 // The material points at one time of a run, as they are written to files.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -15,6 +16,10 @@ struct PointField {
   std::vector<double> values;
   std::string unit = {};  // "Pa"; empty: none, or not known
 };
+
+/// Where the components of such a tensor stand, row and column.
+inline constexpr std::array<std::array<std::size_t, 2>, 6> tensor_places{
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 
 /// The material points at time t [s], and the grid behind them.
 struct FieldFrame {

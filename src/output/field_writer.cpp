@@ -3,7 +3,6 @@
 #include <stillpoint/state_archive.hpp>
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <iterator>
 #include <numeric>
@@ -23,8 +22,6 @@ namespace stillpoint {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::array of_tensor = {"xx", "yy", "zz", "xy", "yz", "zx"};
 
 // --- the text of fields.xdmf ---------------------------------------------------------------------
 
@@ -100,8 +97,9 @@ void write(const PointField& field, const std::string& group, Hdf5File& file, Gr
     add(field.name, {width, 0, width, 3});
     grid.add_vector(field.name);
   } else {
+    const std::vector<std::string> components = stress_names(field.components);
     for (std::size_t k = 0; k < width; ++k) {
-      const std::string name = fmt::format("{}_{}", field.name, of_tensor[k]);
+      const std::string name = fmt::format("{}_{}", field.name, components[k]);
       add(name, {width, k, 1, 1});
       grid.add_scalar(name);
     }

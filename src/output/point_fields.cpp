@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "output/field_frame.hpp"
 #include "scene/dimensions.hpp"
 
 namespace stillpoint {
@@ -66,10 +67,9 @@ std::vector<double> strain_tensors(const LagrangianPhase& phase, double t, Const
              components = static_cast<std::size_t>(info.stress_components);
   std::vector<double> gradient(of_gradient * phase.points());
   phase.fields().point_strain(t, u, gradient);
-  constexpr std::array<std::array<std::size_t, 2>, 6> places{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
   std::vector<double> strain(components * phase.points(), 0.0);
   for (std::size_t k = 0; k < strain.size(); ++k) {
-    const auto [i, j] = places[k % components];
+    const auto [i, j] = tensor_places[k % components];
     const double* const H = &gradient[k / components * of_gradient];
     if (i < dim && j < dim) strain[k] = (H[dim * i + j] + H[dim * j + i]) / 2;
     if (i >= dim && of_gradient > dim * dim) strain[k] = H[dim * dim];

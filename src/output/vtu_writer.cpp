@@ -36,10 +36,9 @@ std::vector<double> three_columns(std::span<const double> values, std::size_t wi
 
 /// Tensors with the components xx, yy, zz, xy and in space yz, zx, in full.
 std::vector<double> full_tensors(std::span<const double> values, std::size_t components) {
-  constexpr std::array<std::array<std::size_t, 2>, 6> places{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
   std::vector<double> tensors(values.size() / components * 9, 0.0);
   for (std::size_t k = 0; k < values.size(); ++k) {
-    const auto [i, j] = places[k % components];
+    const auto [i, j] = tensor_places[k % components];
     double* const tensor = &tensors[k / components * 9];
     tensor[3 * i + j] = tensor[3 * j + i] = values[k];
   }

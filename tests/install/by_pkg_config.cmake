@@ -3,14 +3,7 @@
 set(installed ${WORK}/installed_for_pkg_config)
 file(REMOVE_RECURSE ${installed})  # no file of an earlier run may help
 
-# must(WHAT COMMAND…): runs a command; where it fails, its output and what it was for end the test.
-function(must what)
-  execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE output ERROR_VARIABLE errors RESULT_VARIABLE status)
-  if(NOT status STREQUAL "0")
-    message(FATAL_ERROR "${what} failed (${status}):\n${output}${errors}")
-  endif()
-  set(output "${output}" PARENT_SCOPE)
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/must.cmake)
 
 must("install" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${installed})
 file(GLOB_RECURSE file ${installed}/*/stillpoint.pc)

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "output/point_fields.hpp"
+#include "scene/dimensions.hpp"
 #include "scene/grid_lines.hpp"
 
 namespace stillpoint {
@@ -150,8 +151,7 @@ std::vector<double> stored_stress(const Hdf5File& fields, const std::string& fra
 bool is_always_there(const std::string& name) {
   constexpr std::array apart = {"place", "u", "v", "material", "volume"};
   if (std::ranges::find(apart, name) != apart.end() || name.starts_with("stress") || name == "strain") return true;
-  constexpr std::array of_strain = {"xx", "yy", "zz", "xy", "yz", "zx"};
-  return name.starts_with("strain_") && std::ranges::find(of_strain, name.substr(7)) != of_strain.end();
+  return std::ranges::any_of(stress_names(6), [&](const std::string& ij) { return name == "strain_" + ij; });
 }
 
 }  // namespace

@@ -71,6 +71,9 @@ TEST_CASE("what is wrong with a mesh is told once, with line and column if it is
       {replaced(of_blocks, "1 20 30", "1 20 31"), "", "there is no node 31", 40, 8},
       {replaced(of_lines, "3 2 2 8 2 1 20", "3 22 2 8 2 1 20"), "", "elements of Gmsh's kind 22", 20, 3},
       {of_blocks.substr(0, of_blocks.find("$EndElements")), "", "expected $EndElements", 41, 1},
+      {replaced(of_blocks, "2 1 0 3\n", "2 1 0 4000000000000\n"), "", "expected the tag of a node", 32, 1},
+      {replaced(of_blocks, "2 1 2 1\n2 1 30 40", "1 1 99 4000000000000\n2 1 30 40"), "", "the file ends too early", 42,
+       1},
       {replaced(of_lines, "\"right\"", "right"), "", "expected a name in quotes", 7, 0},
   };
   for (const Row& row : rows) {
