@@ -58,8 +58,10 @@ void Creep::observe(RunState& run) {
   publish(run);
 }
 
+// What was found of an earlier motion goes with it: else a body that slid and came to rest would wait for ever.
 void Creep::publish(RunState& run) const {
-  if (has_given_) run.measured.creeping = {way_left_.relative(), way_left_.small()};
+  run.measured.creeping =
+      has_given_ ? Measurements::Creeping{way_left_.relative(), way_left_.small()} : Measurements::Creeping{};
 }
 
 Verdict Creep::judge(RunState& run) {
