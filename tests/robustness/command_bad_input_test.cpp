@@ -60,6 +60,21 @@ TEST_CASE("the command refuses an option that it does not know") {
 
 TEST_CASE("the command refuses a subcommand that it does not know") { refuses({kGoodScene, "rum SCENE"}, "rum"); }
 
+TEST_CASE("copies that a launcher of MPI starts are refused by the first of them, before they write into one folder") {
+  // As Open MPI, MPICH and Slurm tell a copy that it is one of two.
+  for (const std::string by : {"OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=", "PMI_SIZE=2 PMI_RANK=",
+                               "SLURM_STEP_NUM_TASKS=2 SLURM_PROCID="}) {
+    INFO(by);
+    for (const std::string command : {"run", "compare", "converge", "safety"})
+      refuses({kGoodScene, command + " SCENE --out OUT", by + "0"}, "2 copies of this command");
+    const CommandRun second(kGoodScene, "run SCENE --out OUT", by + "1");
+    refuses(second, "");
+    CHECK(second.standard_error.empty());
+    CHECK(CommandRun(kGoodScene, "check SCENE", by + "0").status == 0);  // it writes nothing
+  }
+  CHECK(CommandRun(kGoodScene, "run SCENE --out OUT --quiet", "OMPI_COMM_WORLD_SIZE=1").status == 0);
+}
+
 TEST_CASE("list refuses a topic that it does not know, and a format of what is no key") {
   refuses({kGoodScene, "list kyes"}, "kyes");
   refuses({kGoodScene, "list keys --format yaml"}, "yaml");

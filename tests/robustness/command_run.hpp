@@ -19,13 +19,15 @@ struct CommandRun {
   bool wrote = false;  // whether there is anything beside the scene file
 
   /// arguments go through the shell; SCENE and OUT in them stand for the scene file and an output folder.
-  CommandRun(const std::string& scene, std::string arguments) {
+  /// environment: NAME=VALUE …
+  CommandRun(const std::string& scene, std::string arguments, const std::string& environment = "") {
     const TemporaryFolder own, printed;
     const auto file = own.write("scene.toml", scene);
     replace(arguments, "SCENE", file.string());
     replace(arguments, "OUT", (own.path() / "out").string());
     const std::string out = printed.path() / "output", errors = printed.path() / "errors";
-    const std::string line = "cd " + own.path().string() + " && ( " STILLPOINT_BINARY " " + arguments + " ) >" + out;
+    const std::string line =
+        "cd " + own.path().string() + " && ( " + environment + " " STILLPOINT_BINARY " " + arguments + " ) >" + out;
     const int ended = std::system((line + " 2>" + errors).c_str());
     status = WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
     output = contents(out);
