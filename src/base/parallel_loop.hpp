@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <mutex>
 
+#include "base/exact_sum.hpp"
 #include "base/thread_team.hpp"
 
 namespace stillpoint {
@@ -57,69 +59,65 @@ inline void for_each_block(std::size_t n, const Body& body) {
   }
 }
 
-/// For each k < count ≤ most: joins term(k, 0) … term(k, n−1), join associative up to rounding. All k are done in one
-/// pass over memory, in pieces that the first-level cache holds. The order is fixed by n alone: at most 64 blocks, each
-/// in 16 lanes, lanes and then blocks joined in order; neither threads, the compiler's vectors nor other k change it.
-template <std::size_t most, class Value, class Term, class Join>
-inline std::array<Value, most> reduce_each(std::size_t count, std::size_t n, Value neutral, const Term& term,
-                                           const Join& join) {
-  constexpr std::size_t lanes = 16, most_blocks = 64, shortest_block = 1024, piece = 512;
-  const std::size_t share = (n + most_blocks - 1) / most_blocks;
-  const std::size_t block = std::max(shortest_block, (share + lanes - 1) / lanes * lanes);
-  const std::size_t blocks = (n + block - 1) / block;
-  std::array<std::array<Value, most>, most_blocks> of_block;
-
-  const auto reduce_block = [&](std::size_t b) {
-    std::array<std::array<Value, lanes>, most> all_lanes;
-    for (auto& lanes_of_k : all_lanes) lanes_of_k.fill(neutral);
-    const std::size_t end = std::min(n, (b + 1) * block);
-    for (std::size_t begin = b * block; begin < end; begin += piece) {
-      const std::size_t piece_end = std::min(end, begin + piece);
-      const std::size_t whole = begin + (piece_end - begin) / lanes * lanes;
-      for (std::size_t k = 0; k < count; ++k) {
-        std::array<Value, lanes> of_lane = all_lanes[k];
-        for (std::size_t i = begin; i < whole; i += lanes) {
-#pragma omp simd
-          for (std::size_t lane = 0; lane < lanes; ++lane) of_lane[lane] = join(of_lane[lane], term(k, i + lane));
-        }
-        for (std::size_t i = whole; i < piece_end; ++i) of_lane[i - whole] = join(of_lane[i - whole], term(k, i));
-        all_lanes[k] = of_lane;
-      }
+/// For each k < count ≤ most: Σ term(k, 0) … term(k, n−1), each the ExactSum of its terms alone, so that neither
+/// threads nor other k change it. All are done in one pass over memory, in pieces that the first-level cache holds.
+template <std::size_t most, class Term>
+inline std::array<double, most> sum_each(std::size_t count, std::size_t n, const Term& term) {
+  std::array<ExactSum, most> sums;
+  const auto add_entries = [count, &term](std::size_t begin, std::size_t end, std::array<ExactSum, most>& to) {
+    constexpr std::size_t piece = 512;
+    for (std::size_t first = begin; first < end; first += piece) {
+      const std::size_t last = std::min(end, first + piece);
+      for (std::size_t k = 0; k < count; ++k) to[k].add(first, last, [&term, k](std::size_t i) { return term(k, i); });
     }
-    for (std::size_t k = 0; k < count; ++k) {
-      Value all = neutral;
-      for (const Value& one : all_lanes[k]) all = join(all, one);
-      of_block[b][k] = all;
-    }
-  };
-  const auto reduce_entries = [&](std::size_t begin, std::size_t end) {  // in blocks that begin there
-    for (std::size_t b = (begin + block - 1) / block; b * block < end; ++b) reduce_block(b);
   };
   if (n < threaded_from) {
-    reduce_entries(0, n);
+    add_entries(0, n, sums);
   } else {
-    in_aligned_parts(n, 1, reduce_entries);
+    std::mutex joining;
+    in_aligned_parts(n, 1, [&](std::size_t begin, std::size_t end) {
+      std::array<ExactSum, most> of_part;
+      add_entries(begin, end, of_part);
+      const std::lock_guard lock(joining);
+      for (std::size_t k = 0; k < count; ++k) sums[k].add(of_part[k]);
+    });
   }
-
-  std::array<Value, most> result;
-  result.fill(neutral);
-  for (std::size_t b = 0; b < blocks; ++b) {
-    for (std::size_t k = 0; k < count; ++k) result[k] = join(result[k], of_block[b][k]);
-  }
-  return result;
+  std::array<double, most> values{};
+  for (std::size_t k = 0; k < count; ++k) values[k] = sums[k].value();
+  return values;
 }
 
-/// Joins term(0) … term(n−1), in the order of reduce_each().
-template <class Value, class Term, class Join>
-inline Value reduce(std::size_t n, Value neutral, const Term& term, const Join& join) {
-  const auto alone = [&term](std::size_t /*k*/, std::size_t i) { return term(i); };
-  return reduce_each<1>(1, n, neutral, alone, join)[0];
-}
-
-/// The sum Σ term(i), in the order of reduce_each().
+/// The sum Σ term(i), of which the order is no part: see ExactSum.
 template <class Term>
 inline double sum_over(std::size_t n, const Term& term) {
-  return reduce(n, 0.0, term, [](double a, double b) { return a + b; });
+  const auto alone = [&term](std::size_t /*k*/, std::size_t i) { return term(i); };
+  return sum_each<1>(1, n, alone)[0];
+}
+
+/// Joins term(0) … term(n−1) by a join that has no order, as the larger of two.
+template <class Value, class Term, class Join>
+inline Value reduce(std::size_t n, Value neutral, const Term& term, const Join& join) {
+  constexpr std::size_t lanes = 16;
+  Value all = neutral;
+  std::mutex joining;
+  const auto join_entries = [&](std::size_t begin, std::size_t end) {
+    std::array<Value, lanes> of_lane;
+    of_lane.fill(neutral);
+    const std::size_t whole = begin + (end - begin) / lanes * lanes;
+    for (std::size_t i = begin; i < whole; i += lanes) {
+#pragma omp simd
+      for (std::size_t lane = 0; lane < lanes; ++lane) of_lane[lane] = join(of_lane[lane], term(i + lane));
+    }
+    for (std::size_t i = whole; i < end; ++i) of_lane[i - whole] = join(of_lane[i - whole], term(i));
+    const std::lock_guard lock(joining);
+    for (const Value& one : of_lane) all = join(all, one);
+  };
+  if (n < threaded_from) {
+    join_entries(0, n);
+  } else {
+    in_aligned_parts(n, 1, join_entries);
+  }
+  return all;
 }
 
 }  // namespace stillpoint

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <utility>
 
 #include "base/parallel_loop.hpp"
@@ -183,9 +182,8 @@ int dot_product_multi(int count, N_Vector x_vector, N_Vector* Y, sunrealtype* pr
     const int now = std::min(most, count - done);
     std::array<const double*, most> y{};
     for (int k = 0; k < now; ++k) y[static_cast<std::size_t>(k)] = entries(Y[done + k]);
-    const auto sums = reduce_each<most>(
-        static_cast<std::size_t>(now), length(x_vector), 0.0,
-        [x, y](std::size_t k, std::size_t i) { return x[i] * y[k][i]; }, std::plus<>());
+    const auto sums = sum_each<most>(static_cast<std::size_t>(now), length(x_vector),
+                                     [x, y](std::size_t k, std::size_t i) { return x[i] * y[k][i]; });
     std::copy_n(sums.begin(), now, products + done);
   }
   return 0;

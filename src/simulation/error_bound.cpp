@@ -9,6 +9,8 @@
 
 #include <Eigen/SparseCore>
 
+#include "base/parallel_loop.hpp"
+
 namespace stillpoint {
 
 ErrorBound::ErrorBound(const LagrangianPhase& phase, std::optional<double> omega_1, std::optional<VolumeNorm> volume)
@@ -51,9 +53,9 @@ double ErrorBound::omega_V() const { return by_strain_ ? 1 : volume_ ? volume_->
 double ErrorBound::strain_norm(const Evaluation& last, const Vector& u) const {
   const std::vector<double> support = phase_.supports().support_displacements(last.t);
   const ConstVec reactions = last.trial->reactions;
-  double work = dot(last.R, u);
-  for (std::size_t s = 0; s < std::min(support.size(), reactions.size()); ++s) work += support[s] * reactions[s];
-  return std::sqrt(std::abs(work));
+  const double of_supports =
+      sum_over(std::min(support.size(), reactions.size()), [&](std::size_t s) { return support[s] * reactions[s]; });
+  return std::sqrt(std::abs(dot(last.R, u) + of_supports));
 }
 
 // ‖u‖_V ≤ ‖u_s‖_V + ‖u − u*‖_V + ‖u_s − u*‖_V,  ω_V² ‖u − u*‖_V² ≤ ‖u − u*‖_K² ≤ ‖u_s − u*‖_K² + ‖v_s‖_M²

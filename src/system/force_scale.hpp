@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel_loop.hpp"
+
 namespace stillpoint {
 
 /// The scale is ‖F‖. If F = 0, or the rounding that remains of a load that returns to zero, it is the largest ‖F‖ or
@@ -32,8 +34,8 @@ class ForceScale {
 
  private:
   static double reactions(const TrialState& trial, const Contact* contact) {
-    double sum = 0;
-    for (const double reaction : trial.reactions) sum += reaction * reaction;
+    const ConstVec of_supports = trial.reactions;
+    const double sum = sum_over(of_supports.size(), [=](std::size_t s) { return of_supports[s] * of_supports[s]; });
     return std::sqrt(contact ? contact->squared_forces(sum) : sum);
   }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/atomic_file.hpp"
+#include "base/parallel_loop.hpp"
 #include "base/stop_request.hpp"
 #include "linalg/sparse_lu.hpp"
 #include "output/point_fields.hpp"
@@ -34,10 +35,9 @@ double stress_part(const LagrangianPhase& phase, double t, ConstVec u, ConstVec 
     for (std::size_t i = 0; i < width; ++i) sum += values[width * p + i] * values[width * p + i];
     return sum;
   };
-  double sum = 0;
-  for (std::size_t p = 0; p < phase.points(); ++p)
-    sum += volume[p] * std::sqrt(square(stress, stresses, p)) * square(gradient, gradients, p);
-  return sum;
+  return sum_over(phase.points(), [&](std::size_t p) {
+    return volume[p] * std::sqrt(square(stress, stresses, p)) * square(gradient, gradients, p);
+  });
 }
 
 // True if a mode lives in functions that hardly reach the body: beside a point or two they are more unknowns than these
@@ -50,20 +50,14 @@ bool moves_no_material(const LagrangianPhase& phase, double t, const std::vector
   constexpr double light = 0.25;           // inertia of a light degree of freedom, relative to the largest one
   const Mass& M = phase.mass();
   if (2 * M.relative_energy(x) > added_share) return true;
-  double of_mode = 0, sum = 0, most = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const double m = M.diagonal()[k], square = m * x[k] * x[k];
-    of_mode += m * square;
-    sum += square;
-    most = std::max(most, m);
-  }
-  if (!(of_mode < light * most * sum)) return false;
+  const ConstVec m = M.diagonal();
+  const double of_mode = sum_over(x.size(), [&](std::size_t k) { return m[k] * m[k] * x[k] * x[k]; }),
+               sum = sum_over(x.size(), [&](std::size_t k) { return m[k] * x[k] * x[k]; });
+  if (!(of_mode < light * *std::ranges::max_element(m) * sum)) return false;
   const std::vector<double> moved = change_of(phase, PointQuantity::displacement, t, x);
   const std::vector<double> mass = phase.fields().point_data().masses;
   const auto dim = static_cast<std::size_t>(phase.dim());
-  double energy = 0;
-  for (std::size_t i = 0; i < moved.size(); ++i) energy += mass[i / dim] * moved[i] * moved[i];
-  return energy < material_share;
+  return sum_over(moved.size(), [&](std::size_t i) { return mass[i / dim] * moved[i] * moved[i]; }) < material_share;
 }
 
 // The lowest real λ of K x = λ M x with an unsymmetric K, from the one of its symmetric part, which is lower: by

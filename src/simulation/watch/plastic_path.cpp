@@ -187,12 +187,10 @@ double PlasticPath::across_loads(double t, const RelaxationSystem& system) {
   const ConstVec F = system.last().F.span();
   Q_.resize(F.size());
   system.last_out_of_balance(t, Q_);
-  double FF = 0, FQ = 0, QQ = 0;
-  for (std::size_t i = 0; i < F.size(); ++i) {
-    FF += F[i] * F[i];
-    FQ += F[i] * Q_[i];
-    QQ += Q_[i] * Q_[i];
-  }
+  const auto product = [](ConstVec x, ConstVec y) {
+    return sum_over(x.size(), [=](std::size_t i) { return x[i] * y[i]; });
+  };
+  const double FF = product(F, F), FQ = product(F, Q_), QQ = product(Q_, Q_);
   return FF > 0 && QQ > 0 ? std::sqrt(std::max(0.0, 1 - FQ / FF * FQ / QQ)) : 1;
 }
 
@@ -200,8 +198,7 @@ double PlasticPath::across_loads(double t, const RelaxationSystem& system) {
 double PlasticPath::work(double t, const PhaseMotion& motion) const {
   const ConstVec reactions = motion.system.last().trial->reactions;
   const std::vector<double> moved = model_.phase->supports().support_displacements(t);
-  double of_supports = 0;
-  for (std::size_t s = 0; s < moved.size(); ++s) of_supports += reactions[s] * moved[s];
+  const double of_supports = sum_over(moved.size(), [&](std::size_t s) { return reactions[s] * moved[s]; });
   return 0.5 * motion.norms.work_scale(motion.u_vector) + std::abs(of_supports);
 }
 

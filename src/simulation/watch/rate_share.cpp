@@ -100,8 +100,8 @@ double RateShare::work_of_driving(double t, const RelaxationSystem& system) cons
   const ConstVec reactions = system.last().trial->reactions;
   const std::vector<double> now = phase_.supports().support_displacements(t),
                             before = phase_.supports().support_displacements(t_);
-  double work = 0;
-  for (std::size_t s = 0; s < std::min(reactions.size(), now.size()); ++s) work += reactions[s] * (now[s] - before[s]);
+  double work = sum_over(std::min(reactions.size(), now.size()),
+                         [&](std::size_t s) { return reactions[s] * (now[s] - before[s]); });
   for (const WallReaction& wall : phase_.supports().wall_reactions(t)) work += wall.power * (t - t_);
   return work;
 }

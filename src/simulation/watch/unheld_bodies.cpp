@@ -15,6 +15,7 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "base/parallel_loop.hpp"
 #include "base/text.hpp"
 #include "output/point_fields.hpp"
 #include "scene/contact_bodies.hpp"
@@ -89,8 +90,8 @@ std::vector<double> free_way(RunState& run) {
   for (std::size_t k = 0; k < n; ++k) x[k] = k % 2 == 0 ? 1 : -1;
   phase.tangents().apply(Tangent::elastic, run.t, u, x, Kx);
   phase.mass().apply(x, Mx);
-  double stiffness = 0, inertia = 0;
-  for (std::size_t k = 0; k < n; ++k) stiffness += x[k] * Kx[k], inertia += x[k] * Mx[k];
+  const double stiffness = sum_over(n, [&](std::size_t k) { return x[k] * Kx[k]; }),
+               inertia = sum_over(n, [&](std::size_t k) { return x[k] * Mx[k]; });
 
   const Eigen::VectorXd by_mass = mass.cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd G_m = by_mass.asDiagonal() * (G + G.transpose()) / 2 * by_mass.asDiagonal();
