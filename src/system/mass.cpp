@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 #include <stdexcept>
 
 #include <Eigen/SparseCore>
 #include <fmt/format.h>
 
 #include "base/parallel_loop.hpp"
+#include "linalg/component_cholesky.hpp"
 #include "linalg/power_iteration.hpp"
 #include "linalg/sparse_cholesky.hpp"
 
@@ -44,32 +45,18 @@ double smallest_scaled_eigenvalue(ConstVec diagonal, const SparseCholesky& facto
 class Mass::Relative {
  public:
   /// diagonal: that of M.
-  Relative(const std::vector<RelativeInertia>& terms, ConstVec diagonal) : terms_(terms) {
-    for (const RelativeInertia& term : terms_) {
-      if (term.masters == 0) continue;
-      dofs_.push_back(term.dof);
-      dofs_.insert(dofs_.end(), term.master.begin(), term.master.begin() + term.masters);
+  Relative(const std::vector<RelativeInertia>& terms, ConstVec diagonal)
+      : terms_(terms), factor_(coupled_entries(diagonal)), work_(factor_.unknowns().size()) {
+    if (factor_.positive_definite()) return;
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (const int dof : factor_.unknowns()) {
+      least = std::min(least, diagonal[static_cast<std::size_t>(dof)]);
+      most = std::max(most, diagonal[static_cast<std::size_t>(dof)]);
     }
-    std::ranges::sort(dofs_);
-    dofs_.erase(std::unique(dofs_.begin(), dofs_.end()), dofs_.end());  // clang 14 takes no ranges::unique
-    std::vector<int> place_of_dof(diagonal.size());
-    for (std::size_t k = 0; k < dofs_.size(); ++k)
-      place_of_dof[static_cast<std::size_t>(dofs_[k])] = static_cast<int>(k);
-    const auto place = [&](int dof) { return place_of_dof[static_cast<std::size_t>(dof)]; };
-    std::vector<Eigen::Triplet<double>> entries;
-    for (const int dof : dofs_) entries.emplace_back(place(dof), place(dof), diagonal[static_cast<std::size_t>(dof)]);
-    for_each_off_diagonal([&](int i, int j, double value) { entries.emplace_back(place(i), place(j), value); });
-    SparseMatrix block(index(dofs_.size()), index(dofs_.size()));
-    block.setFromTriplets(entries.begin(), entries.end());
-    factor_.emplace(block);
-    work_.resize(dofs_.size());
-    if (!factor_->positive_definite()) {
-      const Eigen::VectorXd M = block.diagonal();
-      throw std::invalid_argument(fmt::format(
-          "the lumped mass is not positive definite to rounding: light nodes were given so much inertia that its "
-          "diagonal reaches from {:.1e} to {:.1e}; expected smaller loads or cells, or more points per cell",
-          M.minCoeff(), M.maxCoeff()));
-    }
+    throw std::invalid_argument(fmt::format(
+        "the lumped mass is not positive definite to rounding: light nodes were given so much inertia that its "
+        "diagonal reaches from {:.1e} to {:.1e}; expected smaller loads or cells, or more points per cell",
+        least, most));
   }
 
   /// Adds inertia q_i² to each M_ii.
@@ -101,17 +88,20 @@ class Mass::Relative {
         [&](int i, int j, double value) { y[static_cast<std::size_t>(i)] += value * x[static_cast<std::size_t>(j)]; });
   }
   void take(ConstVec b) const {
-    for (std::size_t k = 0; k < dofs_.size(); ++k) work_[k] = b[static_cast<std::size_t>(dofs_[k])];
+    const std::span<const int> dofs = factor_.unknowns();
+    for (std::size_t k = 0; k < dofs.size(); ++k) work_[k] = b[static_cast<std::size_t>(dofs[k])];
   }
   /// x = M⁻¹ b at the coupled degrees of freedom, for the b that take() has copied.
   void solve(Vec x) const {
-    factor_->solve(work_, work_);
-    for (std::size_t k = 0; k < dofs_.size(); ++k) x[static_cast<std::size_t>(dofs_[k])] = work_[k];
+    const std::span<const int> dofs = factor_.unknowns();
+    factor_.solve(work_, work_);
+    for (std::size_t k = 0; k < dofs.size(); ++k) x[static_cast<std::size_t>(dofs[k])] = work_[k];
   }
   void decouple(Vec b, ConstVec diagonal) const {
     take(b);
     solve(b);
-    for (const int dof : dofs_) b[static_cast<std::size_t>(dof)] *= diagonal[static_cast<std::size_t>(dof)];
+    for (const int dof : factor_.unknowns())
+      b[static_cast<std::size_t>(dof)] *= diagonal[static_cast<std::size_t>(dof)];
   }
   double energy(ConstVec v) const {
     double sum = 0;
@@ -125,9 +115,21 @@ class Mass::Relative {
   }
 
  private:
+  std::vector<Eigen::Triplet<double>> coupled_entries(ConstVec diagonal) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    std::vector<int> dofs;
+    for_each_off_diagonal([&](int i, int j, double value) {
+      entries.emplace_back(i, j, value);
+      dofs.push_back(i);
+    });
+    std::ranges::sort(dofs);
+    dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());  // clang 14 takes no ranges::unique
+    for (const int dof : dofs) entries.emplace_back(dof, dof, diagonal[static_cast<std::size_t>(dof)]);
+    return entries;
+  }
+
   std::vector<RelativeInertia> terms_;
-  std::vector<int> dofs_;  // coupled degrees of freedom, ascending
-  std::optional<SparseCholesky> factor_;
+  ComponentCholesky factor_;  // of the degrees of freedom that terms couple
   mutable std::vector<double> work_;
 };
 
