@@ -18,11 +18,14 @@ namespace py = pybind11;
 void bind_scene(py::module_& module) {
   py::class_<Scene>(module, "Scene", "One problem as it was read, checked and completed; load() makes it.")
       .def_readonly("name", &Scene::name, "The file's stem.")
-      .def_readonly("title", &Scene::title)
+      .def_readonly("title", &Scene::title, "Of the scene; empty if it has none.")
       .def_readonly("dim", &Scene::dim, "1, 2 or 3.")
       .def_readonly("text", &Scene::text, "As TOML, without the overrides.")
       .def_readonly("overrides", &Scene::overrides, "What was laid over it, \"key=value\" each.")
-      .def_property_readonly("file", [](const Scene& scene) { return scene.file.string(); })
+      .def_property_readonly(
+          "file", [](const Scene& scene) { return scene.file.string(); },
+          "Where it was read from; of a dictionary, scene.toml in the folder where the files that it names are looked "
+          "for.")
       .def("__repr__", [](const Scene& scene) { return "<stillpoint.Scene '" + scene.name + "'>"; })
       .def(py::pickle(
           [](const Scene& scene) { return py::make_tuple(scene.file.string(), scene.text, scene.overrides); },

@@ -92,7 +92,7 @@ std::string SimulationObject::ask_stop_test() {
 }
 
 void bind_simulation(py::module_& module) {
-  py::class_<SimulationObject>(module, "Simulation")
+  py::class_<SimulationObject>(module, "Simulation", "What stillpoint.Simulation is made of.")
       .def(py::init([](const Scene& scene, const std::string& out, const std::string& resume, int threads,
                        const py::object& stop, const py::object& progress) {
              return std::make_unique<SimulationObject>(
@@ -100,43 +100,70 @@ void bind_simulation(py::module_& module) {
            }),
            py::arg("scene"), py::kw_only(), py::arg("out") = "", py::arg("resume") = "", py::arg("threads") = 0,
            py::arg("stop") = py::none(), py::arg("progress") = py::none())
-      .def("step", &SimulationObject::step, py::arg("until") = open_end)
-      .def("run", &SimulationObject::run, py::arg("until") = open_end)
-      .def("save",
-           [](SimulationObject& self, const std::string& checkpoint) {
-             self.without_gil([&](Simulation& simulation) { simulation.save(checkpoint); });
-           })
-      .def("summary_json",
-           [](SimulationObject& self) {
-             return self.without_gil([](Simulation& simulation) { return to_json(simulation.summary()); });
-           })
-      .def("history_rows",
-           [](SimulationObject& self) {
-             self.at_rest();
-             const auto columns = static_cast<py::ssize_t>(self.columns().size());
-             const py::ssize_t rows = columns > 0 ? static_cast<py::ssize_t>(self.rows().size()) / columns : 0;
-             return py::make_tuple(self.columns(), copy_of(self.rows(), {rows, columns}));
-           })
-      .def_property_readonly("done", [](SimulationObject& self) { return self.at_rest().done(); })
-      .def_property_readonly("status", [](SimulationObject& self) { return to_string(self.at_rest().status()); })
-      .def_property_readonly("reason", [](SimulationObject& self) { return self.at_rest().reason(); })
-      .def_property_readonly("t", [](SimulationObject& self) { return self.at_rest().t(); })
-      .def_property_readonly("steps", [](SimulationObject& self) { return self.at_rest().steps(); })
-      .def_property_readonly("evaluations", [](SimulationObject& self) { return self.at_rest().evaluations(); })
-      .def_property_readonly("phases", [](SimulationObject& self) { return self.at_rest().phases(); })
-      .def_property_readonly("residual",
-                             [](SimulationObject& self) {
-                               return self.without_gil([](Simulation& simulation) { return simulation.residual(); });
-                             })
-      .def_property_readonly("distance",
-                             [](SimulationObject& self) {
-                               return self.without_gil([](Simulation& simulation) {
-                                 simulation.residual();
-                                 return simulation.distance();
-                               });
-                             })
-      .def_property_readonly("points", [](const py::object& self) { return Points(self); })
-      .def_property_readonly("unknowns", [](const py::object& self) { return Unknowns(self); });
+      .def("step", &SimulationObject::step, py::arg("until") = open_end,
+           "One accepted step, not past time until [s], with the change of phase that it calls for; nothing once done. "
+           "Returns whether the simulation goes on.")
+      .def("run", &SimulationObject::run, py::arg("until") = open_end,
+           "Steps until time until [s], or until it is done.")
+      .def(
+          "save",
+          [](SimulationObject& self, const std::string& checkpoint) {
+            self.without_gil([&](Simulation& simulation) { simulation.save(checkpoint); });
+          },
+          "Saves the state between two steps, to go on from with resume(). OSError if the file cannot be written.")
+      .def(
+          "summary_json",
+          [](SimulationObject& self) {
+            return self.without_gil([](Simulation& simulation) { return to_json(simulation.summary()); });
+          },
+          "The text of summary.json, as of now.")
+      .def(
+          "history_rows",
+          [](SimulationObject& self) {
+            self.at_rest();
+            const auto columns = static_cast<py::ssize_t>(self.columns().size());
+            const py::ssize_t rows = columns > 0 ? static_cast<py::ssize_t>(self.rows().size()) / columns : 0;
+            return py::make_tuple(self.columns(), copy_of(self.rows(), {rows, columns}));
+          },
+          "The names of the columns of the history, and its rows so far, (rows × columns).")
+      .def_property_readonly(
+          "done", [](SimulationObject& self) { return self.at_rest().done(); },
+          "Whether it has ended: at rest, at a limit, or as something went wrong.")
+      .def_property_readonly(
+          "status", [](SimulationObject& self) { return to_string(self.at_rest().status()); },
+          "\"running\", \"equilibrium\", \"stop-test\", \"end-time\", …, as in summary.json.")
+      .def_property_readonly(
+          "reason", [](SimulationObject& self) { return self.at_rest().reason(); },
+          "The inequality that ended it, or what went wrong.")
+      .def_property_readonly(
+          "t", [](SimulationObject& self) { return self.at_rest().t(); }, "The time reached [s].")
+      .def_property_readonly(
+          "steps", [](SimulationObject& self) { return self.at_rest().steps(); }, "Accepted steps so far.")
+      .def_property_readonly(
+          "evaluations", [](SimulationObject& self) { return self.at_rest().evaluations(); },
+          "Evaluations of the internal force so far.")
+      .def_property_readonly(
+          "phases", [](SimulationObject& self) { return self.at_rest().phases(); }, "Phases that have begun.")
+      .def_property_readonly(
+          "residual",
+          [](SimulationObject& self) {
+            return self.without_gil([](Simulation& simulation) { return simulation.residual(); });
+          },
+          "The norm of F - R over that of F, at present.")
+      .def_property_readonly(
+          "distance",
+          [](SimulationObject& self) {
+            return self.without_gil([](Simulation& simulation) {
+              simulation.residual();
+              return simulation.distance();
+            });
+          },
+          "The bound of the distance from equilibrium, relative; None if there is none.")
+      .def_property_readonly(
+          "points", [](const py::object& self) { return Points(self); }, "The material points.")
+      .def_property_readonly(
+          "unknowns", [](const py::object& self) { return Unknowns(self); },
+          "The free degrees of freedom of the present phase.");
 }
 
 }  // namespace stillpoint::python

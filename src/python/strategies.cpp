@@ -141,21 +141,38 @@ class PythonRelaxation final : public OwnRelaxation {
 }  // namespace
 
 void bind_strategies(py::module_& module) {
-  py::class_<MotionObject>(module, "Motion")
-      .def_property_readonly("t", [](const MotionObject& self) { return self.now().t; })
-      .def_property_readonly("last_step", [](const MotionObject& self) { return self.now().last_step; })
-      .def_property_readonly("max_step", [](const MotionObject& self) { return self.now().max_step; })
-      .def_property_readonly("omega_1", [](const MotionObject& self) { return self.now().omega_1; })
-      .def_property_readonly("u", [](MotionObject& self) { return self.array<0>(&MotionNow::u); })
-      .def_property_readonly("v", [](MotionObject& self) { return self.array<1>(&MotionNow::v); })
-      .def_property_readonly("Q", [](MotionObject& self) { return self.array<2>(&MotionNow::Q); })
-      .def_property_readonly("a", [](MotionObject& self) { return self.array<3>(&MotionNow::a); })
-      .def("mass_product", [](const MotionObject& self, const Array& x) {
-        const MotionNow& now = self.now();
-        Array result(x.size());
-        now.mass->apply(vector_of(x, now.u.size(), "x"), {result.mutable_data(), now.u.size()});
-        return result;
-      });
+  py::class_<MotionObject>(module, "Motion",
+                           "The state that a relaxation steps from, during the call that it is given to. The arrays "
+                           "are read-only copies that the next call fills again: copy what is to be kept.")
+      .def_property_readonly(
+          "t", [](const MotionObject& self) { return self.now().t; }, "The pseudo-time [s].")
+      .def_property_readonly(
+          "last_step", [](const MotionObject& self) { return self.now().last_step; },
+          "Of the step before [s]; 0: there is none since the phase began.")
+      .def_property_readonly(
+          "max_step", [](const MotionObject& self) { return self.now().max_step; },
+          "The step given, a share of the critical one [s].")
+      .def_property_readonly(
+          "omega_1", [](const MotionObject& self) { return self.now().omega_1; }, "[rad/s]; 0 unless needs_omega_1.")
+      .def_property_readonly(
+          "u", [](MotionObject& self) { return self.array<0>(&MotionNow::u); },
+          "Displacement since the phase began, (n) [m].")
+      .def_property_readonly(
+          "v", [](MotionObject& self) { return self.array<1>(&MotionNow::v); }, "Velocity, (n) [m/s].")
+      .def_property_readonly(
+          "Q", [](MotionObject& self) { return self.array<2>(&MotionNow::Q); },
+          "Out-of-balance force F - R(u), (n) [N].")
+      .def_property_readonly(
+          "a", [](MotionObject& self) { return self.array<3>(&MotionNow::a); }, "The a of M a = Q, (n) [m/s²].")
+      .def(
+          "mass_product",
+          [](const MotionObject& self, const Array& x) {
+            const MotionNow& now = self.now();
+            Array result(x.size());
+            now.mass->apply(vector_of(x, now.u.size(), "x"), {result.mutable_data(), now.u.size()});
+            return result;
+          },
+          "M x; x: (n).");
 
   module.def(
       "add_damping",

@@ -149,19 +149,32 @@ Array Points::field(const std::string& name) {
 
 void bind_unknowns(py::module_& module) {
   const py::arg_v u("u", py::none()), t("t", py::none());
-  py::class_<Unknowns>(module, "Unknowns")
-      .def_property_readonly("size", &Unknowns::size)
+  py::class_<Unknowns>(module, "Unknowns", "The n free degrees of freedom of the grid, in the present phase.")
+      .def_property_readonly("size", &Unknowns::size, "n, their number.")
       .def("__len__", &Unknowns::size)
-      .def_property_readonly("u", &Unknowns::u)
-      .def_property_readonly("v", &Unknowns::v)
-      .def("residual", &Unknowns::residual, u, t)
-      .def("internal_force", &Unknowns::internal_force, u, t)
-      .def("external_force", &Unknowns::external_force, u, t)
-      .def("tangent", &Unknowns::tangent, u, t, py::arg("elastic") = false)
-      .def("mass_matrix", &Unknowns::mass_matrix)
-      .def("mass_product", &Unknowns::mass_product, py::arg("x"))
-      .def("mass_solve", &Unknowns::mass_solve, py::arg("b"));
-  py::class_<Points>(module, "Points")
+      .def_property_readonly(
+          "u", &Unknowns::u,
+          "Displacement since the phase began, (n) [m]: a read-only view of the state itself, which steps change. A "
+          "new phase has unknowns of its own: the array of an old one stays as it was at the end of that.")
+      .def_property_readonly("v", &Unknowns::v,
+                             "Velocity, (n) [m/s]: likewise; with mass.kind = \"multigrid\" a copy of now.")
+      .def("residual", &Unknowns::residual, u, t,
+           "F - R(u), (n) [N], at time t [s]; None: of the present. Changes nothing in the simulation. ValueError if u "
+           "cannot be evaluated, or if walls touch the body.")
+      .def("internal_force", &Unknowns::internal_force, u, t, "R(u), likewise.")
+      .def("external_force", &Unknowns::external_force, u, t, "F(t, u), likewise.")
+      .def("tangent", &Unknowns::tangent, u, t, py::arg("elastic") = false,
+           "K = dR/du, likewise, as scipy.sparse.csc_matrix (n × n) [N/m]; elastic: as if no point yielded, symmetric. "
+           "Loads that follow u have a derivative of their own, which is no part of it.")
+      .def("mass_matrix", &Unknowns::mass_matrix,
+           "M as scipy.sparse.csc_matrix (n × n) [kg]. ValueError with mass.kind = \"multigrid\", of which the inverse "
+           "alone is known.")
+      .def("mass_product", &Unknowns::mass_product, py::arg("x"), "M x; x: (n).")
+      .def("mass_solve", &Unknowns::mass_solve, py::arg("b"), "The x of M x = b; b: (n).");
+  py::class_<Points>(module, "Points",
+                     "The P material points, in the order in which the body was filled. Each field is an array of its "
+                     "own, read as of the call: the points are stored in blocks, by cell, and what depends on u is "
+                     "computed. (P), or (P × components); in one dimension (P).")
       .def("__len__", &Points::size)
       .def("__dir__", &Points::names)
       .def("__getattr__", &Points::field);

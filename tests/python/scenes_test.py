@@ -152,4 +152,29 @@ def _(folder):
     raised(stillpoint.StateError, stillpoint.resume, folder / "none.h5")
 
 
+@claim("help() says of each member of the compiled half what its stub says to editors")
+def _(_folder):
+    import ast
+    import inspect
+
+    from stillpoint import _core
+
+    stub = Path(stillpoint.__file__).with_name("_core.pyi").read_text(encoding="utf-8")
+    said = 0
+    for described in ast.parse(stub).body:
+        if not isinstance(described, ast.ClassDef):
+            continue
+        compiled = getattr(_core, described.name)
+        assert inspect.cleandoc(compiled.__doc__).split() == (ast.get_docstring(described) or "").split(), described.name
+        for member in described.body:
+            # The fields of points are found by their names.
+            if isinstance(member, ast.FunctionDef) and not member.name.startswith("__") and described.name != "Points":
+                text = getattr(compiled, member.name).__doc__ or ""
+                # Of a function the first line is its signature.
+                text = text.split("\n", 1)[1] if text.startswith(f"{member.name}(") else text
+                assert text.split() == (ast.get_docstring(member) or "").split() != [], (described.name, member.name, text)
+                said += 1
+    assert said > 30, said
+
+
 check_the_claim()

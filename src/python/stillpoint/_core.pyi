@@ -17,7 +17,8 @@ class Scene:
     def name(self) -> str:
         """The file's stem."""
     @property
-    def title(self) -> str: ...
+    def title(self) -> str:
+        """Of the scene; empty if it has none."""
     @property
     def dim(self) -> int:
         """1, 2 or 3."""
@@ -28,7 +29,8 @@ class Scene:
     def overrides(self) -> list[str]:
         """What was laid over it, "key=value" each."""
     @property
-    def file(self) -> str: ...
+    def file(self) -> str:
+        """Where it was read from; of a dictionary, scene.toml in the folder where the files that it names are looked for."""
 
 class Simulation:
     """What stillpoint.Simulation is made of."""
@@ -46,11 +48,14 @@ class Simulation:
     def step(self, until: float = ...) -> bool:
         """One accepted step, not past time until [s], with the change of phase that it calls for; nothing once done.
         Returns whether the simulation goes on."""
-    def run(self, until: float = ...) -> object: ...
+    def run(self, until: float = ...) -> object:
+        """Steps until time until [s], or until it is done."""
     def save(self, checkpoint: str) -> None:
         """Saves the state between two steps, to go on from with resume(). OSError if the file cannot be written."""
-    def summary_json(self) -> str: ...
-    def history_rows(self) -> tuple[list[str], NDArray[np.float64]]: ...
+    def summary_json(self) -> str:
+        """The text of summary.json, as of now."""
+    def history_rows(self) -> tuple[list[str], NDArray[np.float64]]:
+        """The names of the columns of the history, and its rows so far, (rows × columns)."""
     @property
     def done(self) -> bool:
         """Whether it has ended: at rest, at a limit, or as something went wrong."""
@@ -62,15 +67,16 @@ class Simulation:
         """The inequality that ended it, or what went wrong."""
     @property
     def t(self) -> float:
-        """[s]"""
+        """The time reached [s]."""
     @property
-    def steps(self) -> int: ...
+    def steps(self) -> int:
+        """Accepted steps so far."""
     @property
     def evaluations(self) -> int:
-        """Of the internal force."""
+        """Evaluations of the internal force so far."""
     @property
     def phases(self) -> int:
-        """How many have begun."""
+        """Phases that have begun."""
     @property
     def residual(self) -> float:
         """The norm of F - R over that of F, at present."""
@@ -78,15 +84,18 @@ class Simulation:
     def distance(self) -> Optional[float]:
         """The bound of the distance from equilibrium, relative; None if there is none."""
     @property
-    def points(self) -> Points: ...
+    def points(self) -> Points:
+        """The material points."""
     @property
-    def unknowns(self) -> Unknowns: ...
+    def unknowns(self) -> Unknowns:
+        """The free degrees of freedom of the present phase."""
 
 class Unknowns:
     """The n free degrees of freedom of the grid, in the present phase."""
 
     @property
-    def size(self) -> int: ...
+    def size(self) -> int:
+        """n, their number."""
     def __len__(self) -> int: ...
     @property
     def u(self) -> NDArray[np.float64]:
