@@ -35,13 +35,12 @@ constexpr CostOfUnknown cost_in_plane{12e-9, 4.0e-6, 0.15e-6}, cost_in_space{30e
 constexpr std::array cost_by_dimension{cost_in_plane, cost_in_plane, cost_in_space};
 
 // The time without multigrid over the time with it, of an elastic body in a single phase that nothing touches.
-double gain_by_multigrid(const Problem& problem, const Estimates& found) {
-  constexpr double evaluations_per_cell = 7.4;  // to a residual of 1e-6, for each cell along the longest side
+double gain_by_multigrid(const Problem& problem, const BodySize& size, const Estimates& found) {
+  constexpr double evaluations_per_cell = 7.4;  // to a residual of 1e-6, for each cell along the body's longest side
   constexpr double start_of_petsc = 0.12;       // [s]
   const auto [evaluation, set_up, cycle] = of_dimension(cost_by_dimension, problem.dim);
-  const double cells = *std::ranges::max_element(problem.grid.cells);
   const double cycles = found.linear ? 15 : 150;
-  return evaluations_per_cell * cells * evaluation * found.unknowns /
+  return evaluations_per_cell * size.longest * evaluation * found.unknowns /
          (start_of_petsc + (set_up + cycles * cycle) * found.unknowns);
 }
 
@@ -100,7 +99,7 @@ Plan make_plan(const Problem& problem, const MemoryRoom& room) {
 
 void revise(const Problem& problem, const Estimates& found, Plan& plan) {
   plan.estimates = found;
-  plan.multigrid_gain = may_choose_multigrid(problem, plan) ? gain_by_multigrid(problem, found) : 0;
+  plan.multigrid_gain = may_choose_multigrid(problem, plan) ? gain_by_multigrid(problem, plan.size, found) : 0;
   const bool is_asked = problem.mass.kind == MassKind::multigrid;
   plan.multigrid = found.multigrid_serves && (is_asked || (plan.multigrid_gain > 1 && multigrid_is_missing().empty()));
   const bool tells = plan.static_method ? plan.static_method->tells_omega_1 : plan.chooses_mass;

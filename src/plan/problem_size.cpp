@@ -13,6 +13,7 @@
 #include "scene/body_solid.hpp"
 #include "scene/grid_lines.hpp"
 #include "scene/point_sums.hpp"
+#include "space/points/numbered_cells.hpp"
 #include "space/points/solid_cell_rule.hpp"
 
 namespace stillpoint {
@@ -110,6 +111,19 @@ double entries_per_column(const Problem& problem, const BodySize& size) {
   return std::min(neighbours.widening() * dissected, 2 * neighbours.widening() * size.width);
 }
 
+// As NumberedCells: those of a box around the bodies, or all. occupied: the cells with bodies, along each axis.
+double numbered_functions(const Problem& problem, const std::vector<Range>& occupied) {
+  double in_box = 1, all = 1, of_box = 1, of_all = 1;
+  for (std::size_t d = 0; d < occupied.size(); ++d) {
+    const double cells = problem.grid.cells[d];
+    const double along = std::min<double>(occupied[d].end + numbered_around, cells) -
+                         std::max<double>(occupied[d].first - numbered_around, 0);
+    in_box *= along, all *= cells;
+    of_box *= functions_along(problem.grid.basis, along), of_all *= functions_along(problem.grid.basis, cells);
+  }
+  return may_leave_cells_out(problem) && in_box <= most_in_box * all ? of_box : of_all;
+}
+
 }  // namespace
 
 BodySize body_size(const Problem& problem) {
@@ -141,14 +155,14 @@ BodySize body_size(const Problem& problem) {
     size.most_points = problem.bodies.size() > 1 ? fmt::format("body[{}].{}", k, key) : fmt::format("body.{}", key);
   }
   double in_box = 1, functions = 1, widest = 1;
-  size.grid_functions = 1;
   for (std::size_t d = 0; d < dim; ++d) {
     in_box *= box[d].length();
+    size.longest = std::max(size.longest, box[d].length());
     const double along = functions_along(problem.grid.basis, box[d].length());
     functions *= along;
     widest = std::max(widest, along);
-    size.grid_functions *= functions_along(problem.grid.basis, problem.grid.cells[d]);
   }
+  size.grid_functions = numbered_functions(problem, box);
   const auto components = static_cast<double>(dim);
   size.unknowns = components * functions * std::min(1.0, size.cells / std::max(1.0, in_box));
   size.width = components * functions / widest;

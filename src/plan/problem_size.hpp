@@ -13,7 +13,8 @@ namespace stillpoint {
 struct BodySize {
   double points = 0, cells = 0;     // cells are counted if they hold points
   double unknowns = 0;              // counted before supports take some away
-  double grid_functions = 0;        // functions of the whole grid
+  double grid_functions = 0;        // functions of the grid that have a number
+  double longest = 0;               // cells along the longest side of a box around the bodies
   double width = 0;                 // unknowns across the body at its narrowest: half of the band of K
   std::vector<double> body_points;  // points of each body
   std::string most_points;          // the key that sets the points of the body that has most

@@ -124,6 +124,10 @@ class BoundaryCondition {
   /// Changes initial velocities of the phase that would go through a wall; v: (n).
   virtual void begin_motion(const Parts&, double /*t*/, Vec /*v*/) {}
 
+  /// Called before the next phase begins if the functions have other numbers there: now_of[f] is that of the former
+  /// function f, −1 if it has none, in the same order; functions: how many there are.
+  virtual void renumber(const std::vector<int>& /*now_of*/, int /*functions*/) {}
+
   /// Whether the force that add_load() adds depends on t.
   virtual bool varies() const = 0;
   /// F += the forces that depend on t, not on u.

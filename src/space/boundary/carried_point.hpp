@@ -195,8 +195,10 @@ template <int Dim>
 std::array<int, Dim> cell_with_functions_at(const GridFunctions<Dim>& functions, const Point<Dim>& x) {
   const Grid<Dim>& grid = functions.grid();
   auto cell = grid.cell_of(x);
-  for (int d = 0; d < Dim; ++d)
-    cell[d] = std::clamp(cell[d], 0, std::max(grid.axes[d].cells() - functions.window(), 0));
+  for (int d = 0; d < Dim; ++d) {
+    const CellRange along = grid.range(d);
+    cell[d] = std::clamp(cell[d], along.first, std::max(along.end - functions.window(), along.first));
+  }
   return cell;
 }
 

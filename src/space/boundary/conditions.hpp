@@ -89,7 +89,11 @@ class Conditions {
   void update_multipliers(double t, const double* u);
   bool ask_for_next_phase(ConstVec u) const;
   void end_phase(double t, const double* u);
-  /// The same at the end of a stage of small strain, whose points stay where they are.
+  /// As BoundaryCondition::renumber().
+  void renumber(const std::vector<int>& now_of, int functions) {
+    for (const auto& condition : all_) condition->renumber(now_of, functions);
+  }
+  /// As end_phase() at the end of a stage of small strain, whose points stay where they are.
   void end_phase_in_place(double t, const double* u);
   void archive(const StateArchive& state);
 

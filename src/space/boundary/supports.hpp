@@ -58,6 +58,10 @@ class Supports final : public BoundaryCondition<Dim> {
   bool asks_for_next_phase(ConstVec u) const override {
     return std::ranges::any_of(waiting_, [u](const Waiting& one) { return one.outward * u[one.dof] >= one.gap; });
   }
+  void renumber(const std::vector<int>& now_of, int functions) override {
+    for (TouchedFunctions& touched : touched_)
+      if (touched.has_begun()) touched.renumber(now_of, functions);
+  }
   void archive(const StateArchive& state) override {
     for (std::size_t s = 0; s < touched_.size(); ++s) {
       const std::string name = fmt::format("support_{}", problem_.supports[s].number);

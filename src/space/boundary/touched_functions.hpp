@@ -78,6 +78,17 @@ class TouchedFunctions {
     std::ranges::merge(held, stays, std::back_inserter(held_));
     return held_;
   }
+  /// The functions have other numbers from now on, see BoundaryCondition::renumber().
+  void renumber(const std::vector<int>& now_of, int functions) {
+    const auto number = [&](int& function) { function = now_of[static_cast<std::size_t>(function)]; };
+    for (int& function : held_) number(function);
+    std::erase(held_, -1);
+    for (std::vector<Apart>* list : {&waiting_, &come_}) {
+      for (Apart& one : *list) number(one.function);
+      std::erase_if(*list, [](const Apart& one) { return one.function < 0; });
+    }
+    functions_ = functions;
+  }
   /// The functions that next() left free, in ascending order, with the gaps of their material.
   const std::vector<Apart>& waiting() const { return waiting_; }
   /// The gap of material that has reached the face since the last phase began, below 0: past it; 0 if the function has

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -62,6 +63,18 @@ void WallContact::begin_phase(const Phase& phase, ConstVec mass, std::vector<Nod
       close(k, velocity, v);
     }
   }
+}
+
+void WallContact::take_nodes(const std::vector<std::size_t>& from) {
+  const auto take = [&](auto& values) {
+    std::remove_reference_t<decltype(values)> taken(from.size());
+    for (std::size_t k = 0; k < from.size(); ++k)
+      if (from[k] != is_new && from[k] < values.size()) taken[k] = values[from[k]];
+    values = std::move(taken);
+  };
+  take(closed_);
+  take(sliding_);
+  take(gap_);
 }
 
 bool WallContact::approaches(std::size_t k, double velocity, ConstVec v) const {

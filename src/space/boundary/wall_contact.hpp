@@ -58,6 +58,9 @@ class WallContact {
   /// Begins a phase; nodes that were closed stay closed. mass: diagonal of the lumped M, which must outlive the phase,
   /// (n); v: initial velocities, changed at nodes that close.
   void begin_phase(const Phase& phase, ConstVec mass, std::vector<Node> nodes, Vec v);
+  static constexpr std::size_t is_new = static_cast<std::size_t>(-1);
+  /// Before a phase begins: its node k was node from[k] of the last one, or is_new.
+  void take_nodes(const std::vector<std::size_t>& from);
   /// Whether node k was closed in contact with its material, at gap 0, and stays closed.
   bool stays(std::size_t k) const { return started_ && k < closed_.size() && closed_[k] && gap_[k] == 0; }
 

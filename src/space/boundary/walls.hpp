@@ -36,10 +36,18 @@ class Walls final : public BoundaryCondition<Dim>, private Contact {
             HeldUnknowns& held) override {
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       Wall& wall = walls_[w];
-      wall.functions = functions.values_on_face(axis_of(wall.face), is_upper(wall.face));
+      const std::vector<int> before =
+          std::exchange(wall.functions, functions.values_on_face(axis_of(wall.face), is_upper(wall.face)));
+      if (std::exchange(wall.has_other_numbers, false)) wall.contact.take_nodes(places_in(before, wall.functions));
       for (const int function : wall.functions) held.guide(Dim * function + axis_of(wall.face));
       if (!problem_.phase.ends()) check_gaps(w, gaps);
       take_gaps(wall, reached, gaps);
+    }
+  }
+  void renumber(const std::vector<int>& now_of, int /*functions*/) override {
+    for (Wall& wall : walls_) {
+      for (int& function : wall.functions) function = now_of[static_cast<std::size_t>(function)];
+      wall.has_other_numbers = true;
     }
   }
   // Where another wall crosses, only that wall acts along its normal.
@@ -113,7 +121,18 @@ class Walls final : public BoundaryCondition<Dim>, private Contact {
     std::vector<int> functions;  // value functions on the face of the present grid
     std::vector<double> gaps;    // gap of each function when the phase begins [m]
     WallContact contact;
+    bool has_other_numbers = false;  // whether `functions` are those of the last phase by their new numbers
   };
+
+  // The place of each number among those of `before`, ascending but for −1; WallContact::is_new: it is not there.
+  static std::vector<std::size_t> places_in(const std::vector<int>& before, const std::vector<int>& numbers) {
+    std::vector<std::size_t> places;
+    for (const int number : numbers) {
+      const auto found = std::ranges::find(before, number);
+      places.push_back(found == before.end() ? WallContact::is_new : static_cast<std::size_t>(found - before.begin()));
+    }
+    return places;
+  }
 
   // In a single phase functions keep their gaps: material that does not lie on a wall when the run begins would touch
   // it through a layer without material, or not at all.

@@ -30,7 +30,8 @@ concept AxisBasis = requires(const Axis& axis, int cell, double x, double* N) {
   { B::window } -> std::convertible_to<int>;
   // Whether local function a is a value (and not a slope).
   { B::is_value(cell) } -> std::convertible_to<bool>;
-  { B::count(axis) } -> std::convertible_to<int>;
+  // The number of functions of so many cells next to each other.
+  { B::count(cell) } -> std::convertible_to<int>;
   { B::first(cell) } -> std::convertible_to<int>;
   // Sets N[a], dN[a] = dN_a/dx of the cell's functions at x; N, dN: (per_cell).
   {B::evaluate(axis, cell, x, N, N)};
@@ -43,7 +44,7 @@ struct BSpline {
   static constexpr int window = 1;
   static constexpr bool partition_of_unity = true;
   static constexpr bool is_value(int) { return true; }
-  static int count(const Axis& axis) { return axis.cells() + Degree; }
+  static constexpr int count(int cells) { return cells + Degree; }
   static int first(int cell) { return cell; }
   /// The centre of a function, Greville's abscissa x_i: Σ_i N_i(x) x_i = x.
   static double centre(const Axis& axis, int function) {
@@ -104,7 +105,7 @@ struct CubicHermite {
   static constexpr int window = 1;
   static constexpr bool partition_of_unity = false;
   static constexpr bool is_value(int a) { return a % 2 == 0; }
-  static int count(const Axis& axis) { return 2 * (axis.cells() + 1); }
+  static constexpr int count(int cells) { return 2 * (cells + 1); }
   static int first(int cell) { return 2 * cell; }
   /// The node that a function belongs to.
   static double centre(const Axis& axis, int function) { return axis.nodes[static_cast<std::size_t>(function / 2)]; }
@@ -151,11 +152,13 @@ struct TensorBasis {
     std::array<std::array<double, per_cell>, Dim> dN;
   };
 
+  /// The number of functions, of those cells that have numbers.
   static int count(const Grid<Dim>& grid) {
     int total = 1;
-    for (const Axis& axis : grid.axes) total *= B::count(axis);
+    for (int d = 0; d < Dim; ++d) total *= count_along(grid, d);
     return total;
   }
+  static int count_along(const Grid<Dim>& grid, int axis) { return B::count(grid.range(axis).count()); }
   static constexpr int axis_index(int a, int d) { return a / power(B::per_cell, d) % B::per_cell; }
   static constexpr bool is_value(int a) {
     for (int d = 0; d < Dim; ++d) {
@@ -166,7 +169,8 @@ struct TensorBasis {
   /// Global number of a cell's first function.
   static int first(const Grid<Dim>& grid, const std::array<int, Dim>& cell) {
     int number = 0;
-    for (int d = Dim - 1; d >= 0; --d) number = number * B::count(grid.axes[d]) + B::first(cell[d]);
+    for (int d = Dim - 1; d >= 0; --d)
+      number = number * count_along(grid, d) + B::first(cell[d]) - B::first(grid.range(d).first);
     return number;
   }
   /// The offsets of local functions a from first(). Where an axis has no second cell, functions of that cell vanish and
@@ -175,7 +179,7 @@ struct TensorBasis {
     std::array<int, per_cell> offset{};
     for (int a = 0; a < per_cell; ++a) {
       for (int d = Dim - 1; d >= 0; --d) {
-        const int count = B::count(grid.axes[d]);
+        const int count = count_along(grid, d);
         offset[a] = offset[a] * count + std::min(axis_index(a, d), count - 1);
       }
     }
@@ -193,7 +197,8 @@ struct TensorBasis {
    public:
     explicit OnCells(const Grid<Dim>& grid) {
       for (int d = 0; d < Dim; ++d) {
-        for (int c = 0; c < grid.axes[d].cells(); ++c) axes_[d].emplace_back(grid.axes[d], c);
+        first_[d] = grid.range(d).first;
+        for (int c = grid.range(d).first; c < grid.range(d).end; ++c) axes_[d].emplace_back(grid.axes[d], c);
       }
     }
     /// N: (per_cell), dN: (Dim × per_cell).
@@ -205,21 +210,24 @@ struct TensorBasis {
     /// Sets the functions along each axis, and their derivatives.
     void evaluate_factors(const std::array<int, Dim>& cell, const Point<Dim>& x, OfAxes& N, OfAxes& dN) const {
       for (int d = 0; d < Dim; ++d)
-        axes_[d][static_cast<std::size_t>(cell[d])].evaluate(x[d], N[d].data(), dN[d].data());
+        axes_[d][static_cast<std::size_t>(cell[d] - first_[d])].evaluate(x[d], N[d].data(), dN[d].data());
     }
 
    private:
+    std::array<int, Dim> first_{};
     std::array<std::vector<typename B::OnCell>, Dim> axes_;
   };
   /// The functions that do not vanish on a face of the grid, in ascending order; face_values() leaves out slopes along
   /// the face.
   static std::vector<int> face_functions(const Grid<Dim>& grid, int axis, bool upper) {
     // One function across the face has a value there: the last, or the last but one if a slope follows it.
-    const int count = B::count(grid.axes[static_cast<std::size_t>(axis)]);
+    const CellRange along = grid.range(axis);
+    std::vector<int> found;
+    if (upper ? along.end < grid.axes[static_cast<std::size_t>(axis)].cells() : along.first > 0) return found;
+    const int count = count_along(grid, axis);
     const int across = !upper ? 0 : B::is_value(B::per_cell - 1) ? count - 1 : count - 2;
     int stride = 1;
-    for (int d = 0; d < axis; ++d) stride *= B::count(grid.axes[static_cast<std::size_t>(d)]);
-    std::vector<int> found;
+    for (int d = 0; d < axis; ++d) stride *= count_along(grid, d);
     for (int begin = across * stride; begin < TensorBasis::count(grid); begin += count * stride) {
       for (int number = begin; number < begin + stride; ++number) found.push_back(number);
     }
@@ -237,10 +245,26 @@ struct TensorBasis {
     }
     return true;
   }
-  /// The index along an axis of a function given by its global number.
+  /// The place along an axis of a function given by its global number, among all functions of the axis.
   static int index_along(const Grid<Dim>& grid, int number, int axis) {
-    for (int d = 0; d < axis; ++d) number /= B::count(grid.axes[static_cast<std::size_t>(d)]);
-    return number % B::count(grid.axes[static_cast<std::size_t>(axis)]);
+    for (int d = 0; d < axis; ++d) number /= count_along(grid, d);
+    return B::first(grid.range(axis).first) + number % count_along(grid, axis);
+  }
+  /// index_along() of each axis.
+  static std::array<int, Dim> places_of(const Grid<Dim>& grid, int number) {
+    std::array<int, Dim> places;
+    for (int d = 0; d < Dim; ++d) places[d] = index_along(grid, number, d);
+    return places;
+  }
+  /// The global number of the function at these places; −1 if it has none.
+  static int number_at(const Grid<Dim>& grid, const std::array<int, Dim>& places) {
+    int number = 0;
+    for (int d = Dim - 1; d >= 0; --d) {
+      const int along = places[d] - B::first(grid.range(d).first), count = count_along(grid, d);
+      if (along < 0 || along >= count) return -1;
+      number = number * count + along;
+    }
+    return number;
   }
   /// The global number of the function that alone carries the value at x (1 there, all others 0); empty if there is
   /// none, as inside a spline.

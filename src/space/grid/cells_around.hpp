@@ -9,14 +9,15 @@
 
 namespace stillpoint {
 
-/// Calls visit(number) for each cell that is no further than `reach` cells away along every axis, in ascending order.
+/// Calls visit(number) for each cell with a number that is no further than `reach` cells away along every axis, in
+/// ascending order.
 template <int Dim, class Visit>
 void for_cells_around(const Grid<Dim>& grid, const std::type_identity_t<std::array<int, Dim>>& here, int reach,
                       const Visit& visit) {
   std::array<int, Dim> low, high;
   for (int d = 0; d < Dim; ++d) {
-    low[d] = std::max(here[d] - reach, 0);
-    high[d] = std::min(here[d] + reach, grid.axes[d].cells() - 1);
+    low[d] = std::max(here[d] - reach, grid.range(d).first);
+    high[d] = std::min(here[d] + reach, grid.range(d).end - 1);
   }
   std::array<int, Dim> cell = low;
   while (cell[Dim - 1] <= high[Dim - 1]) {

@@ -57,7 +57,7 @@ class CutCells {
       int distance = 0;
       for (const int o : offset) distance += o * o;
       const auto candidate = moved(at, offset);
-      if (distance == 0 || distance > nearest || !is_inside(candidate)) continue;
+      if (distance == 0 || distance > nearest || !grid_.holds(candidate)) continue;
       const int number = grid_.cell_number(candidate);
       const double common = in_common(sliver, number);
       if (!has_enough(number) || common == 0 || (distance == nearest && common <= most)) continue;
@@ -74,12 +74,6 @@ class CutCells {
 
   double share(int cell) const { return together_[static_cast<std::size_t>(cell)]; }
   bool is_sliver(int cell) const { return share(cell) > 0 && share(cell) < enough_; }
-  bool is_inside(const std::array<int, Dim>& cell) const {
-    for (int d = 0; d < Dim; ++d) {
-      if (cell[d] < 0 || cell[d] >= grid_.axes[d].cells()) return false;
-    }
-    return true;
-  }
   static std::array<int, Dim> moved(std::array<int, Dim> cell, const std::array<int, Dim>& by) {
     for (int d = 0; d < Dim; ++d) cell[d] += by[d];
     return cell;
@@ -110,8 +104,8 @@ class CutCells {
       auto behind = sliver;
       do {
         behind[d] -= to_host[d] > 0 ? 1 : -1;
-      } while (is_inside(behind) && is_sliver(grid_.cell_number(behind)));
-      if (is_inside(behind) && share(grid_.cell_number(behind)) > 0) return false;
+      } while (grid_.holds(behind) && is_sliver(grid_.cell_number(behind)));
+      if (grid_.holds(behind) && share(grid_.cell_number(behind)) > 0) return false;
     }
     return true;
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace stillpoint {
@@ -48,33 +49,57 @@ struct Axis {
 template <int Dim>
 using Point = std::array<double, Dim>;
 
-/// A grid whose cells are numbered with the first coordinate running fastest.
+/// Cells of an axis.
+struct CellRange {
+  int first = 0, end = 0;
+
+  int count() const { return end - first; }
+  bool operator==(const CellRange&) const = default;
+};
+
+/// A grid whose cells are numbered with the first coordinate running fastest. Along an axis a cell has its place among
+/// all cells there; a number have those of a box alone, in which the bodies lie, so that what is kept of each cell or
+/// function takes no memory, and no time, for the empty rest of a large grid.
 template <int Dim>
 struct Grid {
-  std::array<Axis, Dim> axes;
+  using Box = std::array<CellRange, Dim>;
 
+  std::array<Axis, Dim> axes;
+  Box box{};  // the cells that have numbers; of an axis with none: all
+
+  /// The cells along an axis that have numbers.
+  CellRange range(int d) const {
+    const CellRange& of_box = box[static_cast<std::size_t>(d)];
+    return of_box.end > 0 ? of_box : CellRange{0, axes[static_cast<std::size_t>(d)].cells()};
+  }
   int cells() const {
     int count = 1;
-    for (const Axis& axis : axes) count *= axis.cells();
+    for (int d = 0; d < Dim; ++d) count *= range(d).count();
     return count;
   }
+  bool holds(const std::array<int, Dim>& cell) const {
+    for (int d = 0; d < Dim; ++d)
+      if (cell[d] < range(d).first || cell[d] >= range(d).end) return false;
+    return true;
+  }
+  /// The cell that contains x, of those that have numbers; of a place outside the nearest one.
   std::array<int, Dim> cell_of(const Point<Dim>& x) const {
     std::array<int, Dim> cell;
-    for (int d = 0; d < Dim; ++d) cell[d] = axes[d].cell_of(x[d]);
+    for (int d = 0; d < Dim; ++d) cell[d] = std::clamp(axes[d].cell_of(x[d]), range(d).first, range(d).end - 1);
     return cell;
   }
   int cell_number(const std::array<int, Dim>& cell) const {
     int number = 0;
-    for (int d = Dim - 1; d >= 0; --d) number = number * axes[d].cells() + cell[d];
+    for (int d = Dim - 1; d >= 0; --d) number = number * range(d).count() + cell[d] - range(d).first;
     return number;
   }
   std::array<int, Dim> cell_at(int number) const {
     std::array<int, Dim> cell;
-    for (int d = 0; d + 1 < Dim; ++d) {
-      cell[d] = number % axes[d].cells();
-      number /= axes[d].cells();
+    for (int d = 0; d < Dim; ++d) {
+      const CellRange along = range(d);
+      cell[d] = d + 1 < Dim ? along.first + number % along.count() : along.first + number;
+      number /= along.count();
     }
-    cell[Dim - 1] = number;
     return cell;
   }
 };

@@ -44,7 +44,7 @@ class GridFunctions {
   int count() const { return fields_ * count_of_field(); }
   int fields() const { return fields_; }
   virtual int count_of_field() const = 0;
-  /// The number of functions along an axis.
+  /// The number of functions along an axis, as they are numbered.
   virtual int count_along(int axis) const = 0;
   /// The functions of a field.
   virtual Values evaluate(int field, const Cell& cell, const Point<Dim>& x) const = 0;
@@ -94,7 +94,7 @@ class FunctionsOfBasis final : public GridFunctions<Dim> {
       : GridFunctions<Dim>(grid, fields, B::per_cell, B::window, B::degree, B::partition_of_unity) {}
 
   int count_of_field() const override { return Basis::count(this->grid()); }
-  int count_along(int axis) const override { return B::count(this->grid().axes[axis]); }
+  int count_along(int axis) const override { return Basis::count_along(this->grid(), axis); }
   Values evaluate(int field, const Cell& cell, const Point<Dim>& x) const override {
     const auto of_cell = Basis::evaluate(this->grid(), cell, x);
     const auto offset = Basis::offsets(this->grid());

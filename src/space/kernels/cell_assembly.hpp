@@ -34,7 +34,7 @@ class NeighbourMatrix {
     int stride = 1;
     for (int d = 0; d < Dim; ++d) {
       for (int k = 0; k < neighbours; ++k) offset_[k] += stride * (k / power(span, d) % span - reach);
-      stride *= B::count(grid.axes[d]);
+      stride *= TensorBasis<B, Dim>::count_along(grid, d);
     }
     entry_.assign(functions * neighbours * Dim * Dim, untouched);
   }

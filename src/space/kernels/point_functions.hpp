@@ -24,6 +24,8 @@ class PointFunctions {
 
   /// The position of occupied cell k in the grid.
   const std::array<int, Dim>& cell_at(std::size_t k) const { return at_[k]; }
+  /// The same of all occupied cells.
+  const std::vector<std::array<int, Dim>>& cells_at() const { return at_; }
   /// Grid number of local function a in occupied cell k.
   int function(std::size_t k, int a) const { return first_[k] + offset_[a]; }
   int functions_of_cell() const { return functions_of_cell_; }

@@ -89,7 +89,7 @@ class MotionLimit {
   // if the axis is even, of the cells at the start.
   std::vector<double> cells_per_length(std::size_t d) const {
     const Axis& axis = frame_.grid.axes[d];
-    const auto count = static_cast<std::size_t>(B::count(axis));
+    const auto count = static_cast<std::size_t>(B::count(axis.cells()));
     if (axis.is_even) return std::vector<double>(count, 1 / mean_cell(frame_.problem.grid, d));
     constexpr int of_cell = B::per_cell - (B::window - 1);  // functions that do not vanish in a cell
     std::vector<double> per_length(count, 0);

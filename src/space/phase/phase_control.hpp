@@ -63,9 +63,13 @@ class PhaseControlOf final : public PhaseControl {
     state("grid_moved", frame.grid_moved);
     for (std::size_t m = 0; m < body.materials.size(); ++m)
       state(fmt::format("memory_of_material_{}", m), body.materials[m]->memory());
-    if (frame.moves_on()) archive_points(state, body.points);
+    std::vector<int> numbered;
+    if (frame.moves_on()) {
+      numbered = archive_numbered_cells(state);
+      archive_points(state, body.points);
+    }
     all_.conditions.archive(state);
-    if (state.restores() && frame.moves_on()) take_saved_grid();
+    if (state.restores() && frame.moves_on()) take_saved_grid(numbered);
     all_.rest.archive(state.part("rest"));
     if (state.restores() && frame.moves_on()) {
       all_.resume_phase(t);
@@ -78,13 +82,26 @@ class PhaseControlOf final : public PhaseControl {
   }
 
  private:
+  static constexpr std::size_t ends = 2 * dim;
+
+  std::vector<int> archive_numbered_cells(const StateArchive& state) {
+    std::vector<int> numbered;
+    for (const CellRange& along : all_.frame.grid.box) numbered.push_back(along.first), numbered.push_back(along.end);
+    state("numbered_cells", numbered);
+    if (numbered.size() != ends) throw StateError("its cells are those of a grid of other dimensions");
+    return numbered;
+  }
   // Restores the grid from the saved displacement of the followed wall, and checks the order of the saved points.
-  void take_saved_grid() {
+  void take_saved_grid(const std::vector<int>& numbered) {
     PhaseFrame<B, K>& frame = all_.frame;
     frame.grid = saved_grid_at<dim>(all_.problem, frame.grid_moved);
-    long cells = 1;
-    for (const Axis& axis : frame.grid.axes) cells *= axis.cells();
-    const std::string fault = disorder_of(frame.body.points, cells, frame.body.numbers());
+    for (std::size_t d = 0; d < dim; ++d) {
+      const CellRange along{numbered[2 * d], numbered[2 * d + 1]};
+      const bool are_cells = 0 <= along.first && along.first < along.end && along.end <= frame.grid.axes[d].cells();
+      if (along != CellRange{} && !are_cells) throw StateError("its cells are not those of the grid");
+      frame.grid.box[d] = along;
+    }
+    const std::string fault = disorder_of(frame.body.points, frame.grid.cells(), frame.body.numbers());
     if (!fault.empty()) throw StateError(fault);
   }
 

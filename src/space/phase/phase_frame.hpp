@@ -19,6 +19,7 @@
 #include "space/phase/initial_state.hpp"
 #include "space/phase/phase_unknowns.hpp"
 #include "space/points/make_body.hpp"
+#include "space/points/numbered_cells.hpp"
 
 namespace stillpoint {
 
@@ -31,7 +32,7 @@ struct PhaseFrame {
   PhaseFrame(const Problem& of, const CarriedBodyOf<K>* carried)
       : problem(of),
         grid_moved(carried ? carried->grid_moved() : 0),
-        grid(saved_grid_at<dim>(of, grid_moved)),
+        grid(NumberedCells<dim>::around_shapes(of, saved_grid_at<dim>(of, grid_moved), carried != nullptr)),
         body(make_body<K>(of, grid, of.phase.ends(), carried)),
         remembers(std::ranges::any_of(body.materials, [](const auto& law) { return law->info().history_dependent; })),
         total_mass(account().total_mass()),

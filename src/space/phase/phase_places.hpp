@@ -176,12 +176,9 @@ class PhasePlaces final : public PlaceReader {
     for (int k = 0; k < power(3, dim); ++k) {
       constexpr std::array aside = {0, -1, 1};
       Cell cell = here;
-      bool is_cell = true;
-      for (int d = 0; d < dim; ++d) {
-        cell[d] += aside[static_cast<std::size_t>(k / power(3, d) % 3)];
-        is_cell = is_cell && cell[d] >= 0 && cell[d] < grid_.axes[d].cells() &&
-                  outside(x, cell, d) <= rounding * width(cell, d);
-      }
+      for (int d = 0; d < dim; ++d) cell[d] += aside[static_cast<std::size_t>(k / power(3, d) % 3)];
+      bool is_cell = grid_.holds(cell);
+      for (int d = 0; d < dim && is_cell; ++d) is_cell = outside(x, cell, d) <= rounding * width(cell, d);
       if (!is_cell) continue;
       if (occupied_[place_in_list(field, grid_.cell_number(cell))] && is_whole(field, cell, x)) return cell;
     }

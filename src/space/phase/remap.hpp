@@ -95,6 +95,7 @@ class Remap {
                       "less than a thousand times its size",
                       grid_moves_to, t));
     Grid<dim> next_grid = grid_at<dim>(frame_.problem, grid_moves_to);
+    next_grid.box = NumberedCells<dim>::around_points(frame_.grid, frame_.weights.cells_at(), motion);
     const auto work = force_.borrow();
     frame_.unknowns.spread(t, u, work->u);
     const std::vector<double> grid_v = frame_.unknowns.velocities(t, v);
@@ -103,6 +104,10 @@ class Remap {
     motion_since_deformation_ += motion;
     move_points(t, *work, grid_v);
     if (some_past_a_face) faces.put_back(points_);
+    if (next_grid.box != frame_.grid.box) {
+      conditions_.renumber(NumberedCells<dim>::template now_of<Basis>(frame_.grid, next_grid, frame_.body.fields),
+                           frame_.body.fields * Basis::count(next_grid));
+    }
     ++frame_.phase;
     frame_.grid_moved = grid_moves_to;
     frame_.grid = std::move(next_grid);
@@ -128,21 +133,31 @@ class Remap {
   // Computes the positions to which grid_u and grid_v take the points, before anything changes: a run that ends here
   // still has its state. Throws PointLost if one is outside the next grid. Returns whether one has to be put back onto
   // a face.
-  bool find_positions(const Grid<dim>& next_grid, const GridFaces<dim>& faces, const std::vector<double>& grid_u,
+  bool find_positions(Grid<dim>& next_grid, const GridFaces<dim>& faces, const std::vector<double>& grid_u,
                       const std::vector<double>& grid_v) {
     const std::size_t none = points_.cells();
     std::size_t first_outside = none;  // the first cell with a point past a face
+    bool all_have_numbers = true;
     const NextCells<dim> next_cells(next_grid);
     order_.cells().resize(points_.size());
     const PointMotion<B, K>& motion = transfer_.motion();
-    std::mutex first_outside_is_written;
+    std::mutex outside_is_written;
     const auto find_cells = [&](std::size_t k) {
-      if (next_cells.find(points_, k, frame_.weights.cell_at(k), motion.x, order_.cells())) return;
-      const std::scoped_lock lock(first_outside_is_written);
-      first_outside = std::min(first_outside, k);
+      const auto found = next_cells.find(points_, k, frame_.weights.cell_at(k), motion.x, order_.cells());
+      if (found.all_inside && found.all_have_numbers) return;
+      const std::scoped_lock lock(outside_is_written);
+      if (!found.all_inside) first_outside = std::min(first_outside, k);
+      all_have_numbers = all_have_numbers && found.all_have_numbers;
     };
     transfer_.move(points_, frame_.weights, frame_.corner_sum, inertia_.node_mass(), grid_u, grid_v, start_velocity_,
                    find_cells);
+    if (!all_have_numbers) {  // further than the nodes around it, as slopes may take a point
+      next_grid.box = {};
+      const NextCells<dim> of_all(next_grid);
+      for_each_block(points_.cells(), [&](std::size_t k) {
+        of_all.find(points_, k, frame_.weights.cell_at(k), motion.x, order_.cells());
+      });
+    }
     for (std::size_t k = first_outside; k < none; ++k) {
       for (std::size_t p = points_.begin(k); p < points_.end(k); ++p) {
         for (int d = 0; d < dim; ++d) {

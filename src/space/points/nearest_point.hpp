@@ -29,7 +29,7 @@ class NearestPoint {
     for (std::size_t k = 0; k < points.cells(); ++k) {
       list_[static_cast<std::size_t>(next[static_cast<std::size_t>(points.cell[k])]++)] = k;
     }
-    for (const Axis& axis : grid.axes) most_cells_ = std::max(most_cells_, axis.cells());
+    for (int d = 0; d < Dim; ++d) most_cells_ = std::max(most_cells_, grid.range(d).count());
   }
 
   /// The point nearest to x, of those in a field, of which there is at least one; of several equally near ones, one of
@@ -66,9 +66,10 @@ class NearestPoint {
     double least = std::numeric_limits<double>::infinity();
     for (int d = 0; d < Dim; ++d) {
       const std::vector<double>& lines = grid_.axes[d].nodes;
-      const int below = here[d] - ring, above = here[d] + ring, cells = grid_.axes[d].cells();
-      if (below >= 0) least = std::min(least, x[d] - lines[static_cast<std::size_t>(std::min(below + up_to, cells))]);
-      if (above < cells) least = std::min(least, lines[static_cast<std::size_t>(above)] - x[d]);
+      const int below = here[d] - ring, above = here[d] + ring;
+      const auto [first, end] = grid_.range(d);
+      if (below >= first) least = std::min(least, x[d] - lines[static_cast<std::size_t>(std::min(below + up_to, end))]);
+      if (above < end) least = std::min(least, lines[static_cast<std::size_t>(above)] - x[d]);
     }
     return std::max(0.0, least);
   }
@@ -78,8 +79,8 @@ class NearestPoint {
   void visit_ring(const std::array<int, Dim>& here, int ring, const Visit& visit) const {
     std::array<int, Dim> low, high;
     for (int d = 0; d < Dim; ++d) {
-      low[d] = std::max(here[d] - ring, 0);
-      high[d] = std::min(here[d] + ring, grid_.axes[d].cells() - 1);
+      low[d] = std::max(here[d] - ring, grid_.range(d).first);
+      high[d] = std::min(here[d] + ring, grid_.range(d).end - 1);
     }
     std::array<int, Dim> cell = low;
     while (cell[Dim - 1] <= high[Dim - 1]) {

@@ -24,10 +24,15 @@ class NextCells {
     }
   }
 
+  struct Found {
+    bool all_inside = true;        // whether all points are inside the grid; others are assigned to its end cells
+    bool all_have_numbers = true;  // whether the cells of all of them do; others have none
+  };
+
   /// Sets `cell` to the next grid's numbers of the cells at x, for the points of occupied cell k, which lies at `here`;
-  /// x, cell: (points). Returns false if a point is outside the grid, where it is assigned to the end cell.
-  bool find(const MaterialPoints<Dim>& points, std::size_t k, const std::array<int, Dim>& here,
-            const std::array<std::vector<double>, Dim>& x, std::vector<int>& cell) const {
+  /// x, cell: (points).
+  Found find(const MaterialPoints<Dim>& points, std::size_t k, const std::array<int, Dim>& here,
+             const std::array<std::vector<double>, Dim>& x, std::vector<int>& cell) const {
     Point<Dim> low{}, high{};  // bounds of the same cell in the next grid, if there is one
     for (int d = 0; d < Dim; ++d) {
       if (here[d] >= cells_[d]) continue;
@@ -35,23 +40,24 @@ class NextCells {
       high[d] = lines_[d][here[d] + 1];
     }
     const int same = next_.cell_number(here);
-    bool all_inside = true;
+    Found found;
     for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
       bool stays = true;
       for (int d = 0; d < Dim; ++d) stays = stays && x[d][p] >= low[d] && x[d][p] < high[d];
-      cell[p] = stays ? same : find(x, p, all_inside);
+      cell[p] = stays ? same : find(x, p, found);
     }
-    return all_inside;
+    return found;
   }
 
  private:
-  int find(const std::array<std::vector<double>, Dim>& x, std::size_t p, bool& all_inside) const {
+  int find(const std::array<std::vector<double>, Dim>& x, std::size_t p, Found& found) const {
     std::array<int, Dim> cell;
     for (int d = 0; d < Dim; ++d) {
       const Axis& axis = next_.axes[d];
-      all_inside = all_inside && x[d][p] >= axis.min() && x[d][p] <= axis.max();
+      found.all_inside = found.all_inside && x[d][p] >= axis.min() && x[d][p] <= axis.max();
       cell[d] = axis.cell_of(x[d][p], per_length_[d]);
     }
+    found.all_have_numbers = found.all_have_numbers && next_.holds(cell);
     return next_.cell_number(cell);
   }
 

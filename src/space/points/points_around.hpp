@@ -50,10 +50,11 @@ class PointsAround {
         h[d] = std::max(h[d], axis.nodes[c + 1] - axis.nodes[c]);
       }
       const auto line = [&](int i) { return axis.nodes[static_cast<std::size_t>(i)]; };
+      const CellRange along = grid_.range(d);
       from[d] = here[d];
-      while (from[d] > 0 && line(from[d]) > x[d] - reach * h[d]) --from[d];
+      while (from[d] > along.first && line(from[d]) > x[d] - reach * h[d]) --from[d];
       to[d] = here[d] + 1;
-      while (to[d] < axis.cells() && line(to[d]) < x[d] + reach * h[d]) ++to[d];
+      while (to[d] < along.end && line(to[d]) < x[d] + reach * h[d]) ++to[d];
     }
     std::vector<PointInCell> around = points_between(from, to);
     if (around.empty()) around.push_back(nearest(x));
@@ -118,7 +119,7 @@ class PointsAround {
   // Finds the points on a line or in the plane, where they are sorted by their cells, which points with domains need
   // not be.
   std::vector<PointInCell> sorted_between(const Cell& from, const Cell& to) const {
-    const int rows = Dim == 1 ? 1 : to[Dim - 1] - from[Dim - 1], across = grid_.axes[0].cells();
+    const int rows = Dim == 1 ? 1 : to[Dim - 1] - from[Dim - 1], across = grid_.range(0).count();
     std::vector<PointInCell> found;
     for (std::size_t k = 0; k < points_.cells(); ++k) {
       const int beyond = points_.cell[k] - grid_.cell_number(from);

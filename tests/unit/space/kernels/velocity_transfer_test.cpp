@@ -113,7 +113,7 @@ class FreeBlock {
         sum += axis.nodes[static_cast<std::size_t>(std::clamp(q, 0, axis.cells()))];
       return sum / B::degree;
     };
-    const int along_x = B::count(grid_.axes[0]);
+    const int along_x = TensorBasis<B, 2>::count_along(grid_, 0);
     std::vector<double> values;
     for (int f = 0; f < TensorBasis<B, 2>::count(grid_); ++f) {
       const Point<2> v = field({centre(grid_.axes[0], f % along_x), centre(grid_.axes[1], f / along_x)});

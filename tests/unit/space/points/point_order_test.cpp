@@ -134,7 +134,7 @@ TEST_CASE("the cells that points move on to are those that the next grid has the
   for (std::size_t k = 0; k < heap.points.cells(); ++k) {
     bool all_inside = true;
     const auto here = heap.grid.cell_at(heap.points.cell[k]);
-    const bool said = next_cells.find(heap.points, k, here, x, cell);
+    const bool said = next_cells.find(heap.points, k, here, x, cell).all_inside;
     for (std::size_t p = heap.points.begin(k); p < heap.points.end(k); ++p) {
       CHECK(cell[p] == next.cell_number(next.cell_of({x[0][p], x[1][p]})));
       all_inside = all_inside && x[0][p] >= 0 && x[0][p] <= columns + 0.3 && x[1][p] >= 0 && x[1][p] <= 10;
@@ -148,6 +148,6 @@ TEST_CASE("a point that is nowhere is outside every cell") {
   std::array<std::vector<double>, 2> x = heap.points.x;
   x[1][0] = std::numeric_limits<double>::quiet_NaN();
   std::vector<int> cell(heap.points.size());
-  CHECK_FALSE(NextCells<2>(heap.grid).find(heap.points, 0, heap.grid.cell_at(heap.points.cell[0]), x, cell));
-  CHECK(NextCells<2>(heap.grid).find(heap.points, 1, heap.grid.cell_at(heap.points.cell[1]), x, cell));
+  CHECK_FALSE(NextCells<2>(heap.grid).find(heap.points, 0, heap.grid.cell_at(heap.points.cell[0]), x, cell).all_inside);
+  CHECK(NextCells<2>(heap.grid).find(heap.points, 1, heap.grid.cell_at(heap.points.cell[1]), x, cell).all_inside);
 }
