@@ -1,11 +1,13 @@
 // A body in a grid that is mostly empty: the same answer as in one that ends near it, at the cost of that.
-#include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <sys/resource.h>
 
 #include "files.hpp"
+#include "plan/plan.hpp"
 #include "resumed_runs.hpp"
 #include "scenes.hpp"
 #include "temporary_folder.hpp"
@@ -19,6 +21,13 @@ struct Ended {
   Summary summary;
   std::string history;
 };
+
+// The largest so far [bytes].
+double resident_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
 
 Ended run_of(const std::string& text, const std::vector<std::string>& set) {
   const TemporaryFolder folder;
@@ -136,6 +145,17 @@ every = 0.01
 steps = 400
 )toml" + rubber;
   same_in_both(ball, {}, {}, {"constants.ends=32", "grid.cells=[64, 64, 64]"});
+}
+
+TEST_CASE("a body in a grid of nine million cells is said to need, and takes, the memory of one that ends near it") {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.write("scene.toml", standing);
+  const auto bytes = [&](const std::vector<std::string>& set) { return make_plan(load_scene(file, set)).bytes(); };
+  const std::vector<std::string> in_vast{"constants.ends=750", "grid.cells=[3000, 3000]"};
+  CHECK(bytes(in_vast) < 1.05 * bytes({}));
+  const auto before = resident_memory();
+  CHECK(run(load_scene(file, in_vast), {.threads = 1}).status == RunStatus::equilibrium);
+  CHECK(resident_memory() - before < 50e6);  // a vector over all functions would be 144 MB
 }
 
 TEST_CASE("a run in a large empty grid that is broken off amid its way and resumed has the bits of the unbroken one") {
