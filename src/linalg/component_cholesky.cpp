@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <tuple>
 
 #include "base/parallel_loop.hpp"
 
@@ -14,11 +13,6 @@ namespace {
 constexpr std::size_t largest_dense = 64;  // unknowns: a factor of 16 kB, and no more work than a sparse one's indices
 
 using Entries = std::span<const Eigen::Triplet<double>>;
-
-// The place of a number in an ascending list that has it.
-std::size_t place_in(const std::vector<int>& ascending, int number) {
-  return static_cast<std::size_t>(std::ranges::lower_bound(ascending, number) - ascending.begin());
-}
 
 // Sets of places that are united, each known by its first.
 class UnitedPlaces {
@@ -40,19 +34,27 @@ class UnitedPlaces {
 
 }  // namespace
 
-ComponentCholesky::ComponentCholesky(Entries entries) {
+ComponentCholesky::ComponentCholesky(Entries entries, std::size_t unknowns) {
+  // The place of each unknown, first among those that have entries, in ascending order, and then in unknowns_.
+  std::vector<std::size_t> place(unknowns, 0);
+  for (const auto& entry : entries) place[static_cast<std::size_t>(entry.row())] = 1;
   std::vector<int> numbers;
-  for (const auto& entry : entries) numbers.push_back(entry.row());
-  std::ranges::sort(numbers);
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());  // clang 14 takes no ranges::unique
-  const std::vector<std::size_t> places = order_by_components(entries, numbers);
+  for (std::size_t k = 0; k < unknowns; ++k) {
+    if (place[k] == 0) continue;
+    place[k] = numbers.size();
+    numbers.push_back(static_cast<int>(k));
+  }
+  const std::vector<std::size_t> ordered = order_by_components(entries, numbers, place);
+  for (const int number : numbers)
+    place[static_cast<std::size_t>(number)] = ordered[place[static_cast<std::size_t>(number)]];
   std::vector<const Component*> component_at(wide_);
   for (const Component& component : small_)
     std::fill_n(component_at.begin() + static_cast<std::ptrdiff_t>(component.first), component.size, &component);
 
   std::vector<Eigen::Triplet<double>> widely_coupled;
   for (const auto& entry : entries) {
-    const std::size_t row = places[place_in(numbers, entry.row())], column = places[place_in(numbers, entry.col())];
+    const std::size_t row = place[static_cast<std::size_t>(entry.row())],
+                      column = place[static_cast<std::size_t>(entry.col())];
     if (row >= wide_) {
       widely_coupled.emplace_back(static_cast<int>(row - wide_), static_cast<int>(column - wide_), entry.value());
     } else if (row >= column) {
@@ -69,25 +71,28 @@ ComponentCholesky::ComponentCholesky(Entries entries) {
   positive_definite_ = positive_definite_ && sparse_->positive_definite();
 }
 
-// Takes the unknowns of these ascending numbers; returns the place of each of them in unknowns_.
-std::vector<std::size_t> ComponentCholesky::order_by_components(Entries entries, const std::vector<int>& numbers) {
+// Takes the unknowns of these ascending numbers; returns where each of them is in unknowns_. place: of a number among
+// them.
+std::vector<std::size_t> ComponentCholesky::order_by_components(Entries entries, const std::vector<int>& numbers,
+                                                                const std::vector<std::size_t>& place) {
   UnitedPlaces united(numbers.size());
-  for (const auto& entry : entries) united.unite(place_in(numbers, entry.row()), place_in(numbers, entry.col()));
-  std::vector<std::size_t> component(numbers.size()), size(numbers.size(), 0), order(numbers.size());
+  for (const auto& entry : entries)
+    united.unite(place[static_cast<std::size_t>(entry.row())], place[static_cast<std::size_t>(entry.col())]);
+  std::vector<std::size_t> component(numbers.size()), size(numbers.size(), 0), next(numbers.size());
   for (std::size_t k = 0; k < numbers.size(); ++k) ++size[component[k] = united.first_of(k)];
-  const auto is_wide = [&](std::size_t k) { return size[component[k]] > largest_dense; };
-  std::iota(order.begin(), order.end(), 0UL);
-  std::ranges::sort(order, {}, [&](std::size_t k) { return std::tuple(is_wide(k), component[k], k); });
-
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    if (component[k] != k || size[k] > largest_dense) continue;
+    small_.push_back({wide_, size[k], factors_.size()});
+    factors_.resize(factors_.size() + size[k] * size[k]);
+    next[k] = wide_;
+    wide_ += size[k];
+  }
+  std::size_t next_wide = wide_;
   std::vector<std::size_t> places(numbers.size());
-  for (const std::size_t k : order) {
-    if (!is_wide(k) && component[k] == k) {
-      small_.push_back({unknowns_.size(), size[k], factors_.size()});
-      factors_.resize(factors_.size() + size[k] * size[k]);
-    }
-    places[k] = unknowns_.size();
-    unknowns_.push_back(numbers[k]);
-    if (!is_wide(k)) wide_ = unknowns_.size();
+  unknowns_.resize(numbers.size());
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    places[k] = size[component[k]] > largest_dense ? next_wide++ : next[component[k]]++;
+    unknowns_[places[k]] = numbers[k];
   }
   return places;
 }
@@ -102,7 +107,7 @@ bool ComponentCholesky::factorise(const Component& component) {
       const double entry = left;
       for (std::size_t k = 0; k < j; ++k) left -= L[i * n + k] * L[j * n + k];
       if (j < i) {
-        L[i * n + j] = left * L[j * n + j];
+        L[i * n + j] = left * L[j * n + j];  // whose diagonal is 1/L_jj
         continue;
       }
       if (!(left > std::numeric_limits<double>::epsilon() * entry)) return false;  // nothing but rounding is left

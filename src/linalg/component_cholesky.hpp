@@ -19,9 +19,9 @@ namespace stillpoint {
 /// coupled more widely shares a sparse one.
 class ComponentCholesky {
  public:
-  /// entries: those of A, of both triangles, by the unknowns' numbers in the larger system; entries of one place are
-  /// summed.
-  explicit ComponentCholesky(std::span<const Eigen::Triplet<double>> entries);
+  /// entries: those of A, of both triangles and with the diagonal, by the unknowns' numbers in the larger system, of so
+  /// many unknowns; entries of one place are summed.
+  ComponentCholesky(std::span<const Eigen::Triplet<double>> entries, std::size_t unknowns);
 
   /// Whether the factorisation succeeded, which proves (up to rounding) that A is positive definite.
   bool positive_definite() const { return positive_definite_; }
@@ -37,12 +37,12 @@ class ComponentCholesky {
   };
 
   std::vector<std::size_t> order_by_components(std::span<const Eigen::Triplet<double>> entries,
-                                               const std::vector<int>& numbers);
+                                               const std::vector<int>& numbers, const std::vector<std::size_t>& place);
   bool factorise(const Component& component);
 
   std::vector<int> unknowns_;
   std::vector<Component> small_;
-  std::vector<double> factors_;           // rows of L of each small component, with 1/L_ii in place of L_ii
+  std::vector<double> factors_;           // L of each small component by rows, with 1/L_ii in place of L_ii
   std::size_t wide_ = 0;                  // where the unknowns of all other components begin
   std::optional<SparseCholesky> sparse_;  // of those
   bool positive_definite_ = true;

@@ -46,7 +46,7 @@ class Mass::Relative {
  public:
   /// diagonal: that of M.
   Relative(const std::vector<RelativeInertia>& terms, ConstVec diagonal)
-      : terms_(terms), factor_(coupled_entries(diagonal)), work_(factor_.unknowns().size()) {
+      : terms_(terms), factor_(coupled_entries(diagonal), diagonal.size()), work_(factor_.unknowns().size()) {
     if (factor_.positive_definite()) return;
     double least = std::numeric_limits<double>::infinity(), most = 0;
     for (const int dof : factor_.unknowns()) {
@@ -117,14 +117,13 @@ class Mass::Relative {
  private:
   std::vector<Eigen::Triplet<double>> coupled_entries(ConstVec diagonal) const {
     std::vector<Eigen::Triplet<double>> entries;
-    std::vector<int> dofs;
+    std::vector<char> is_coupled(diagonal.size(), 0);
     for_each_off_diagonal([&](int i, int j, double value) {
       entries.emplace_back(i, j, value);
-      dofs.push_back(i);
+      is_coupled[static_cast<std::size_t>(i)] = 1;
     });
-    std::ranges::sort(dofs);
-    dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());  // clang 14 takes no ranges::unique
-    for (const int dof : dofs) entries.emplace_back(dof, dof, diagonal[static_cast<std::size_t>(dof)]);
+    for (std::size_t k = 0; k < diagonal.size(); ++k)
+      if (is_coupled[k]) entries.emplace_back(static_cast<int>(k), static_cast<int>(k), diagonal[k]);
     return entries;
   }
 

@@ -50,7 +50,7 @@ TEST_CASE("systems of components, a few unknowns each or hundreds, are solved as
   const std::vector<int> lengths =
       GENERATE(std::vector{1, 2, 3, 8}, std::vector{64, 65, 3}, std::vector{300, 1, 1, 200});
   const Chains chains(600, lengths);
-  const ComponentCholesky factor(chains.entries);
+  const ComponentCholesky factor(chains.entries, 600);
   REQUIRE(factor.positive_definite());
   const std::size_t n = factor.unknowns().size();
   REQUIRE(n == static_cast<std::size_t>((chains.A.diagonal().array() != 0).count()));
@@ -64,7 +64,7 @@ TEST_CASE("systems of components, a few unknowns each or hundreds, are solved as
 
 TEST_CASE("components are solved with the same bits on any number of threads") {
   const Chains chains(9000, std::vector<int>(3000, 3));
-  const ComponentCholesky factor(chains.entries);
+  const ComponentCholesky factor(chains.entries, 9000);
   const auto solved = [&](int threads) {
     const ThreadScope scope(threads);
     std::vector<double> x = numbered(9000);
@@ -84,13 +84,13 @@ TEST_CASE("a component that is not positive definite, or singular to rounding, i
       // [[1, 1], [1, last]] beside them
       entries.emplace_back(200, 200, 1), entries.emplace_back(201, 201, last);
       entries.emplace_back(200, 201, 1), entries.emplace_back(201, 200, 1);
-      CHECK_FALSE(ComponentCholesky(entries).positive_definite());
+      CHECK_FALSE(ComponentCholesky(entries, 202).positive_definite());
       entries.emplace_back(201, 201, 1e-6);
-      CHECK(ComponentCholesky(entries).positive_definite() == !std::isnan(last));
+      CHECK(ComponentCholesky(entries, 202).positive_definite() == !std::isnan(last));
     }
   }
-  CHECK(ComponentCholesky(Entries{}).positive_definite());
-  CHECK(ComponentCholesky(Entries{}).unknowns().empty());
+  CHECK(ComponentCholesky(Entries{}, 3).positive_definite());
+  CHECK(ComponentCholesky(Entries{}, 3).unknowns().empty());
 }
 
 }  // namespace
