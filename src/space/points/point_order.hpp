@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <numeric>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -86,6 +87,7 @@ class PointOrder {
       std::array<int, Dim> cell;
       if (points.has_domains()) {
         cell = window_of(Domain<Dim>::in_grid(points, p, grid), grid);
+        if (!grid.holds(cell)) throw std::logic_error("a domain is outside the cells that have numbers");
       } else {
         for (int d = 0; d < Dim; ++d) cell[d] = grid.axes[d].cell_of(points.x[d][p], per_length[d]);
       }
