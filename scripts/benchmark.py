@@ -20,6 +20,7 @@ import tempfile
 from pathlib import Path
 
 from benchmark_table import (
+    SECTION,
     BadFigures,
     Figures,
     markdown,
@@ -27,7 +28,6 @@ from benchmark_table import (
     of_summary,
     of_yardsticks,
     terminal_table,
-    write_readme,
 )
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -192,7 +192,7 @@ def main():
         about = described(options, figures, load)
         print(about + "\n\n" + terminal_table(figures))
         if options.accept:
-            write_readme(options.readme, markdown(figures, about))
+            SECTION.write(options.readme, markdown(figures, about))
     except (BadFigures, OSError, KeyError, ValueError) as error:
         print(f"benchmark: {error}", file=sys.stderr)
         return 2

@@ -22,7 +22,7 @@ import time
 from pathlib import Path
 
 from benchmark_peers_file import WAYS, BadPeers, cases_of, read_peers, write_figures
-from benchmark_peers_page import about, around_section, commands, explained, section, terminal_table, write_section
+from benchmark_peers_page import SECTION, about, commands, explained, section, terminal_table
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -175,13 +175,13 @@ def parse():
 def measure_and_accept(document, options):
     load = os.getloadavg()[0]
     if options.accept:
-        around_section(options.page)  # rather fails now than after the measurement
+        SECTION.around(options.page)  # rather fails now than after the measurement
     folders = folders_of(document, options.measure.resolve(), options.accept)
     document["measured"] = measure(document, folders, options.program.resolve(), options.repeats)
     document["measurement"] = described(options, load)
     if options.accept:
         write_figures(options.file, document)
-        write_section(options.page, section(document))
+        SECTION.write(options.page, section(document))
 
 
 def main():

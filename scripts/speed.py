@@ -20,7 +20,7 @@ import numpy as np
 
 from benchmark import ROOT, described, measure_yardsticks
 from benchmark_table import BadFigures
-from speed_table import THREADS, Found, around, generated, tables, write_page
+from speed_table import SECTION, THREADS, Found, generated, tables
 
 LONGEST = 600  # [s] of the processor for a run
 
@@ -136,13 +136,13 @@ def main():
     load = os.getloadavg()[0]
     try:
         if options.accept:
-            around(options.page)  # rather fails now than after the measurement
+            SECTION.around(options.page)  # rather fails now than after the measurement
         all_tables = tables(options.quick)
         found = measure(all_tables, options.programs.resolve(), options)
         text = generated(all_tables, found, described(options, found.figures, load))
         print(text)
         if options.accept:
-            write_page(options.page, text)
+            SECTION.write(options.page, text)
     except (BadFigures, OSError, KeyError, ValueError) as error:
         print(f"speed: {error}", file=sys.stderr)
         return 2

@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """benchmark_test.py ROOT CLAIM: one claim about scripts/benchmark and its table."""
 
-import json
 import math
 import os
 
@@ -143,15 +142,15 @@ def _(folder):
     figures = module.Figures(["new"])
     figures.add("a step", 1, "ns", "new", 2.0)
     for _again in range(2):
-        module.write_readme(readme, module.markdown(figures, "Commit abc, 2 cores."))
+        module.SECTION.write(readme, module.markdown(figures, "Commit abc, 2 cores."))
     text = readme.read_text()
     assert text.count("| a step | 1 | 2.0 ns | - | - | +0 % |") == 1 and text.count(module.MARKER) == 1
     assert "old table" not in text and text.startswith("# Benchmarks\n\n<!--") and text.endswith("## What a point costs\n")
     readme.write_text("# Benchmarks\n")
     try:
-        module.write_readme(readme, "")
+        module.SECTION.write(readme, "")
         raise AssertionError("a README without marks was written to")
-    except module.BadFigures as error:
+    except ValueError as error:
         assert "README.md" in str(error) and readme.read_text() == "# Benchmarks\n"
 
 

@@ -164,7 +164,7 @@ def _(folder):
     result = speed(folder, "--accept")
     assert result.returncode == 0, result
     text = (folder / "speed.md").read_text()
-    module.write_page(folder / "speed.md", result.stdout.removesuffix("\n"))
+    module.SECTION.write(folder / "speed.md", result.stdout.removesuffix("\n"))
     assert (folder / "speed.md").read_text() == text  # as often as one likes
     before, after = PAGE.format(module.MARKER, module.END).split("\n\nold tables\n")
     assert text.startswith(before) and text.endswith(after) and "old tables" not in text
