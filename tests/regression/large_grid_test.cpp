@@ -118,6 +118,42 @@ TEST_CASE("a body that falls from far away lands on what holds the bottom as it 
   same_in_both(standing, settings, {"grid.cells=[20, 40]", "grid.min=[2, 0]", "grid.max=[7, 10]"}, in_large);
 }
 
+TEST_CASE("what holds a body on the bottom does not take hold of another one that flies past, as numbers change") {
+  const std::string flying = R"toml(
+dim = 2
+[constants]
+ends = 128
+[grid]
+min = [0, 0]
+max = ["ends", "ends"]
+cells = [512, 512]
+[[body]]
+min = [4, 0]
+max = [6, 1.5]
+material = "m"
+placement = "gauss"
+[[body]]
+min = [9, 0.125]
+max = [10, 1]
+material = "m"
+placement = "gauss"
+[[support]]
+face = "bottom"
+[initial]
+v = ["2*min(1, max(0, (x-7)*1000))", "0"]
+[phase]
+max_motion = 0.2
+[damping]
+strategy = "none"
+[output]
+every = 0.2
+[stop]
+time = 3
+residual = 0
+)toml" + rubber;
+  same_in_both(flying, {}, {"grid.max=[18, 3]", "grid.cells=[72, 12]"}, {});
+}
+
 TEST_CASE("a ball in space takes the same bits to rest on a plane in a grid that is 64 times as large") {
   const std::string ball = R"toml(
 dim = 3

@@ -207,8 +207,11 @@ def _(folder):
     assert told[3:-2] == words[2 : words.index("--out")] and told[-2:] == ["--threads", "1"], (told, words)
     result = speed(folder, "--accept", STATUS="0")  # it came to rest
     assert result.returncode == 2 and " ended with 0" in result.stderr, result
-    result = speed(folder, "--accept", PHASES="2")
-    assert result.returncode == 2 and "--threads 1 had 2 phases in 5 steps" in result.stderr, result
+    # Functions were to be kept, and then to be made anew.
+    for phases, setting in (("2", "body.material=linear"), ("1", "phase.max_motion=0 ")):
+        result = speed(folder, "--accept", PHASES=phases)
+        assert result.returncode == 2 and f"--threads 1 had {phases} phases in 5 steps" in result.stderr, result
+        assert setting in result.stderr, result
     (folder / "programs/stillpoint").unlink()
     assert speed(folder, "--accept").returncode == 2
     assert (folder / "speed.md").read_text() == old
