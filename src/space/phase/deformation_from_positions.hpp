@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "space/boundary/boundary_condition.hpp"
@@ -78,6 +79,17 @@ class DeformationFromPositions {
       for (std::size_t s = 0; s < held.prescribed().size(); ++s) {
         const auto unknown = static_cast<std::size_t>(held.prescribed()[s]);
         anchored_[b][unknown] = reached[unknown / dim] && at_rest(held, s);
+      }
+    }
+  }
+
+  /// The functions have other numbers from now on, see BoundaryCondition::renumber().
+  void renumber(const std::vector<int>& now_of, std::size_t functions) {
+    for (std::vector<char>& anchored : anchored_) {
+      const std::vector<char> before = std::exchange(anchored, std::vector<char>(dim * functions, 0));
+      for (std::size_t unknown = 0; unknown < before.size(); ++unknown) {
+        const int function = now_of[unknown / dim];
+        if (function >= 0) anchored[dim * static_cast<std::size_t>(function) + unknown % dim] = before[unknown];
       }
     }
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -94,7 +95,7 @@ class PhaseControlOf final : public PhaseControl {
   // Restores the grid from the saved displacement of the followed wall, and checks the order of the saved points.
   void take_saved_grid(const std::vector<int>& numbered) {
     PhaseFrame<B, K>& frame = all_.frame;
-    frame.grid = saved_grid_at<dim>(all_.problem, frame.grid_moved);
+    const Grid<dim> before = std::exchange(frame.grid, saved_grid_at<dim>(all_.problem, frame.grid_moved));
     for (std::size_t d = 0; d < dim; ++d) {
       const CellRange along{numbered[2 * d], numbered[2 * d + 1]};
       const bool are_cells = 0 <= along.first && along.first < along.end && along.end <= frame.grid.axes[d].cells();
@@ -103,6 +104,7 @@ class PhaseControlOf final : public PhaseControl {
     }
     const std::string fault = disorder_of(frame.body.points, frame.grid.cells(), frame.body.numbers());
     if (!fault.empty()) throw StateError(fault);
+    all_.remap.take_saved_numbers(before);
   }
 
   PhaseAssembly<B, K>& all_;

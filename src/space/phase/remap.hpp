@@ -72,6 +72,13 @@ class Remap {
     start_velocity_ = frame_.unknowns.velocities(t, v);
     return v;
   }
+  /// The saved grid of a phase has other numbers than `before`, with which the run has begun; conditions save their
+  /// own.
+  void take_saved_numbers(const Grid<dim>& before) {
+    if (before.box == frame_.grid.box) return;
+    deformation_.renumber(NumberedCells<dim>::template now_of<Basis>(before, frame_.grid, frame_.body.fields),
+                          frame_.functions_of_grid());
+  }
   /// Resumes the motion in a phase that began with these points at t.
   void resume(double t) {
     transfer_.resume(points_);
@@ -105,8 +112,10 @@ class Remap {
     move_points(t, *work, grid_v);
     if (some_past_a_face) faces.put_back(points_);
     if (next_grid.box != frame_.grid.box) {
-      conditions_.renumber(NumberedCells<dim>::template now_of<Basis>(frame_.grid, next_grid, frame_.body.fields),
-                           frame_.body.fields * Basis::count(next_grid));
+      const auto now_of = NumberedCells<dim>::template now_of<Basis>(frame_.grid, next_grid, frame_.body.fields);
+      const int functions = frame_.body.fields * Basis::count(next_grid);
+      conditions_.renumber(now_of, functions);
+      deformation_.renumber(now_of, static_cast<std::size_t>(functions));
     }
     ++frame_.phase;
     frame_.grid_moved = grid_moves_to;
