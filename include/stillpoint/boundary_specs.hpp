@@ -83,8 +83,8 @@ struct BoundarySpecs {
   /// Whether the border of a body may be touched, and whether that remembers how it slid.
   bool may_touch() const { return !rigid.empty() || !contacts.empty(); }
   bool rubs() const {
-    const auto has_friction = [](const auto& one) { return one.friction > 0; };
-    return std::ranges::any_of(rigid, has_friction) || std::ranges::any_of(contacts, has_friction);
+    const auto any = [](const auto& one) { return one.shear.acts(); };
+    return std::ranges::any_of(rigid, any) || std::ranges::any_of(contacts, any);
   }
   bool has_body_force() const { return !body_force.empty() || !own_load.empty(); }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stillpoint/expression.hpp>
+#include <stillpoint/shear_limit.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -45,7 +46,7 @@ struct RigidSpec {  // [[rigid]]: a rigid body of one shape, which pushes and ne
   double mass = 0;                // of a free one, for its weight by the scene's body force [kg]
   std::vector<Expression> force;  // on a free one, a formula of t for each coordinate [N]; empty: 0
 
-  double friction = 0;              // Coulomb's coefficient; infinite: rough
+  ShearLimit shear;                 // what it bears along the border
   std::vector<std::string> bodies;  // names of the bodies that it touches; empty: all
 
   StlSolid from_stl{};     // contents of `stl`; resolve() reads them, once

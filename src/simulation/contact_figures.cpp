@@ -20,8 +20,8 @@ struct TouchingPair {
 std::vector<TouchingPair> touching_pairs(const Problem& problem) {
   std::vector<TouchingPair> pairs;
   for (const RigidSpec& rigid : problem.phase.at_stages ? problem.rigid_as_written : problem.rigid)
-    pairs.push_back({rigid.name, rigid.friction > 0, rigid.free});
-  for (const ContactSpec& contact : problem.contacts) pairs.push_back({contact.name(), contact.friction > 0, false});
+    pairs.push_back({rigid.name, rigid.shear.acts(), rigid.free});
+  for (const ContactSpec& contact : problem.contacts) pairs.push_back({contact.name(), contact.shear.acts(), false});
   return pairs;
 }
 

@@ -37,9 +37,9 @@ class GivingWay {
   std::vector<std::string> sliding_contacts(double t, ConstVec u) const;
 
   const LagrangianPhase& phase_;
-  std::vector<double> friction_;          // of each wall
-  std::vector<std::string> contacts_;     // the rigid bodies and the pairs of bodies that touch, in words
-  std::vector<double> contact_friction_;  // the friction of each
+  std::vector<ShearLimit> shear_of_walls_;
+  std::vector<std::string> contacts_;          // the rigid bodies and the pairs of bodies that touch, in words
+  std::vector<ShearLimit> shear_of_contacts_;  // of each
   bool remembers_, yields_, has_friction_;
   std::vector<double> volumes_;
 };

@@ -99,10 +99,11 @@ SafetyStudy bracket(const Scene& scene, const SafetyOptions& options) {
   ReducedBody body(scene, options);
   take(body.first(), study);
   study.notes = body.notes();
-  const auto rubs = [](const auto& touching) { return touching.friction > 0; };
+  const auto rubs = [](const auto& touching) { return touching.shear.acts(); };
   if (std::ranges::any_of(scene.rigid, rubs) || std::ranges::any_of(scene.contacts, rubs))
     study.notes.emplace_back(
-        "the friction of rigid bodies and contacts is not divided by the factor: what slides along them may do so "
+        "the friction and adhesion of rigid bodies and contacts are not divided by the factor: what slides along them "
+        "may do so "
         "without a bracket; expected a thin layer of soil there, if its strength is to count");
   const StopScope scope(is_interrupted);
   try {

@@ -94,6 +94,25 @@ TEST_CASE("a block slides down an incline at the speed that Coulomb's friction l
   }
 }
 
+TEST_CASE("adhesion holds a block with its stress times the area that is pressed, beside friction") {
+  const double theta = 0.3, c = 20, m = 500, weight = m * 10, area = 1;
+  for (const double mu : {0.0, 0.5 * std::tan(theta)}) {
+    const double left = weight * (std::sin(theta) - mu * std::cos(theta));  // to what friction bears
+    for (const double share : {0.5, 1 / 1.001, 1 / 0.999}) {
+      CAPTURE(mu, share);
+      const Summary s = run_ladder("incline", {fmt::format("rigid[0].friction={:.17g}", mu),
+                                               fmt::format("rigid[0].adhesion={:.17g}", share * left / area),
+                                               "stop.time=8"});  // the shear evens out as what is at its limit slips
+      const double speed = -(scenes::probe(s, "block", "momentum.x") * std::cos(theta) +
+                             scenes::probe(s, "block", "momentum.y") * std::sin(theta)) /
+                           m;
+      const double expected = std::max(0.0, (1 - share) * left / m / c);
+      CHECK(std::abs(speed - expected) < 1e-3 * expected + 1e-6);
+      CHECK(s.contacts.at("slope.slipping") == (share < 1 ? 1.0 : 0.0));
+    }
+  }
+}
+
 TEST_CASE("in space a block slides the way that its load points, and friction acts the other way") {
   const Scene scene = load_scene("slide.toml", R"(
 dim = 3

@@ -2,16 +2,29 @@
 #include "scene/input/scene_keys.hpp"
 
 namespace stillpoint {
+namespace {
+
+/// What a rigid body or a contact bears along the border.
+template <class Spec>
+void add_shear(Rows<Spec>& rows) {
+  const auto friction = [](Spec& spec) -> double& { return spec.shear.friction; };
+  const auto adhesion = [](Spec& spec) -> double& { return spec.shear.adhesion; };
+  rows.key("friction", friction, "Coulomb's coefficient; rough: no slip", {.range = kNotNegative, .words = {"rough"}},
+           [](Spec& spec) { spec.shear.friction = kInfinity; })
+      .key("adhesion", adhesion, "shear stress that is borne besides, as long as there is a pressure",
+           {.range = kNotNegative, .unit = "Pa"});
+}
+
+}  // namespace
 
 [[gnu::no_sanitize_address]] void add_contact(Tables& tables) {
   constexpr Range below_half_turn{0, 180, false, false};
-  tables
-      .add({.path = "rigid",
-            .help = "a rigid body of one shape, at rest or moving, that pushes and never holds back",
-            .repeat = Repeat::array,
-            .dims = kNotLine},
-           &Scene::rigid)
-      .key("name", &RigidSpec::name, "for history.csv and summary.json", {.required = true})
+  auto rigid = tables.add({.path = "rigid",
+                           .help = "a rigid body of one shape, at rest or moving, that pushes and never holds back",
+                           .repeat = Repeat::array,
+                           .dims = kNotLine},
+                          &Scene::rigid);
+  rigid.key("name", &RigidSpec::name, "for history.csv and summary.json", {.required = true})
       .key("half_plane", &RigidSpec::half_plane,
            "[point, normal]: a position on its border and a direction out of it; in space a half-space",
            {.unit = "m", .list = true})
@@ -49,23 +62,21 @@ namespace stillpoint {
            "turn")
       .key("mass", &RigidSpec::mass, "of a free one, for its weight by the body force",
            {.range = kNotNegative, .unit = "kg"})
-      .key("force", &RigidSpec::force, "on a free one, components", {.unit = "N", .variables = "t", .fallback = "0"})
-      .key("friction", &RigidSpec::friction, "Coulomb's coefficient; rough: no slip",
-           {.range = kNotNegative, .words = {"rough"}}, [](RigidSpec& rigid) { rigid.friction = kInfinity; })
-      .key("bodies", &RigidSpec::bodies, "names of the bodies that it touches", {.fallback = "all", .list = true});
+      .key("force", &RigidSpec::force, "on a free one, components", {.unit = "N", .variables = "t", .fallback = "0"});
+  add_shear(rigid);
+  rigid.key("bodies", &RigidSpec::bodies, "names of the bodies that it touches", {.fallback = "all", .list = true});
 
-  tables
-      .add({.path = "contact",
-            .help = "two bodies that push each other where they meet, and never hold back; others are bonded where "
-                    "they meet",
-            .repeat = Repeat::array,
-            .dims = kNotLine},
-           &Scene::contacts)
-      .key("bodies", &ContactSpec::bodies,
-           "names of the two; contact is looked for along the border of the first, the shorter one if they differ",
-           {.required = true, .list = true})
-      .key("friction", &ContactSpec::friction, "Coulomb's coefficient; rough: no slip",
-           {.range = kNotNegative, .words = {"rough"}}, [](ContactSpec& contact) { contact.friction = kInfinity; });
+  auto contact =
+      tables.add({.path = "contact",
+                  .help = "two bodies that push each other where they meet, and never hold back; others are bonded "
+                          "where they meet",
+                  .repeat = Repeat::array,
+                  .dims = kNotLine},
+                 &Scene::contacts);
+  contact.key("bodies", &ContactSpec::bodies,
+              "names of the two; contact is looked for along the border of the first, the shorter one if they differ",
+              {.required = true, .list = true});
+  add_shear(contact);
 }
 
 }  // namespace stillpoint

@@ -29,6 +29,14 @@ bool is_touched(const Scene& scene, const std::string& body) {
                              [&](const ContactSpec& contact) { return std::ranges::count(contact.bodies, body) > 0; });
 }
 
+template <class Spec>
+void check_shear(SceneCheck& check, const char* kind, const std::vector<Spec>& specs) {
+  for (std::size_t k = 0; k < specs.size(); ++k)
+    check.wrong_if(specs[k].shear.acts() && !specs[k].shear.ends() && specs[k].shear.adhesion > 0,
+                   fmt::format("{}[{}].adhesion", kind, k),
+                   "adds nothing to friction = \"rough\", which has no limit; leave out one of the two");
+}
+
 /// What contact does not go with.
 void check_company(SceneCheck& check) {
   const Scene& scene = check.scene();
@@ -70,6 +78,8 @@ void check_contacts(SceneCheck& check) {
       check.wrong_if(scene.dim == 1, "contact[0]", "there is none in a scene with dim = {}", scene.dim))
     return;
   for (std::size_t k = 0; k < scene.contacts.size(); ++k) check_contact(check, k);
+  check_shear(check, "rigid", scene.rigid);
+  check_shear(check, "contact", scene.contacts);
   if (scene.dim > 1) check_company(check);
 }
 

@@ -25,7 +25,7 @@ std::optional<Hooked> find_hooked(const Problem& problem, const LagrangianPhase&
   for (std::size_t r = 0; r < problem.rigid.size(); ++r) {
     const auto& [x, y, z] = reports[r].force;
     const double force = std::hypot(x, y, z), hooked = reports[r].hooked;
-    if (problem.rigid[r].free == free && hooked > std::max(least * force, reports[r].friction_left))
+    if (problem.rigid[r].free == free && hooked > std::max(least * force, reports[r].shear_left))
       return Hooked{in_quotes(problem.rigid[r].name), hooked / force};
   }
   return {};
@@ -38,7 +38,8 @@ std::string fault_of_corners(const Problem& problem, const LagrangianPhase& phas
   if (!found) return "";
   return fmt::format(
       "{} is held by a sharp corner, which stands behind a place of the border that feels contact: {:.2g} of the "
-      "force on it acts along that border, and without it the body slides, as friction does not bear as much; "
+      "force on it acts along that border, and without it the body slides, as friction and adhesion do not bear as "
+      "much; "
       "expected a rounding of half a cell, or smaller cells",
       found->body, found->share);
 }

@@ -48,7 +48,7 @@ BodyContact<K>::Pair::Pair(const Problem& problem, std::size_t k, const Grid<dim
       number(k),
       first(problem, only(problem, bodies_of(problem, spec).first), grid),
       second(problem, only(problem, bodies_of(problem, spec).second), grid),
-      force(first, FacetFinder<K>(first), spec.friction) {}
+      force(first, FacetFinder<K>(first), spec.shear) {}
 
 template <Kinematics K>
 BodyContact<K>::BodyContact(const Problem& problem, const Grid<dim>& grid) : problem_(problem) {

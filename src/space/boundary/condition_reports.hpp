@@ -52,9 +52,9 @@ struct ContactReport {
   double turned = 0;   // by how much a piece that touches has turned on what it touches in the phase, where most [rad]
   double stretch = 1;  // by which a piece of the border that touches is drawn out, where most, if it is not cut anew
   // At a sharp corner a piece may be pushed along its own border, by the side of the rigid body that it is behind:
-  double hooked = 0;         // the pressures there, as a force along the border [N]
-  double friction_left = 0;  // that could bear it in their place [N]
-  bool is_gone = false;      // a free rigid body that has found nothing on its way, far beyond all that it may touch
+  double hooked = 0;      // the pressures there, as a force along the border [N]
+  double shear_left = 0;  // that could bear it in their place [N]
+  bool is_gone = false;   // a free rigid body that has found nothing on its way, far beyond all that it may touch
 };
 
 /// What lies in a rigid body without being felt, where it lies deepest.

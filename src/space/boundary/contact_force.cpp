@@ -134,7 +134,7 @@ auto ContactForce<K, Finder>::balance(double t, const RigidPlacement<N>& placeme
   Balance<N> balance{.load = finder_.load(t)};
   for_touches(placement, u, touching, [&](const Touch& touch) {
     if (touch.p > 0) balance.force += touch.area * (touch.p * touch.at.normal + touch.tau);
-    balance.stiffness += stiffness_of(Tangent::consistent, friction_, touch);
+    balance.stiffness += stiffness_of(Tangent::consistent, shear_, touch);
   });
   if (K == Kinematics::axisymmetric) balance.force[0] = 0;
   balance.stiffness = along_axes(balance.stiffness);
@@ -325,14 +325,14 @@ ContactReport ContactForce<K, Finder>::report(double t, const double* u) const {
     const double facing = -touch.at.normal.dot(border);
     if (facing < faces) {
       hooked += touch.area * touch.p * (touch.at.normal + facing * border);
-    } else if (friction_ > 0) {
-      report.friction_left += touch.area * (friction_ * touch.p - touch.tau.norm());
+    } else if (shear_.acts()) {
+      report.shear_left += touch.area * (shear_.at(touch.p) - touch.tau.norm());
     }
     const Position f = touch.area * (touch.p * touch.at.normal + touch.tau), arm = touch.x - centre;
     for (int i = 0; i < N; ++i) report.force[static_cast<std::size_t>(i)] += f[i];
     add_moment<N>(arm, f, report.moment);
     report.area += touch.area;
-    if (touch.tau.norm() >= (1 - rounding) * friction_ * touch.p) slipping += touch.area;
+    if (touch.tau.norm() >= (1 - rounding) * shear_.at(touch.p)) slipping += touch.area;
     report.stretch = std::max(report.stretch, surface_.stretch(touch.piece));
     report.penetration = std::max(report.penetration, -touch.at.distance / surface_.patches()[touch.patch].cell);
   });

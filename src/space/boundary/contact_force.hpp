@@ -15,10 +15,10 @@
 // becomes the mean p of the patch, and the body goes on to where the mean g is 0. A multiplier for each piece would
 // drift, since the grid's functions cannot tell the pieces of a patch apart.
 //
-// Friction [Coulomb]: with the anchor a, the position T⁻¹ x at which the piece stuck last, the elastic slip
-// s = (I − n nᵀ)(T⁻¹ x − a) and the multiplier λ_t,
+// Friction [Coulomb] and adhesion c: with the anchor a, the position T⁻¹ x at which the piece stuck last, the elastic
+// slip s = (I − n nᵀ)(T⁻¹ x − a) and the multiplier λ_t,
 //
-//   τ = clip(λ_t − κ s) to |τ| ≤ μ p,   rough: no limit.
+//   τ = clip(λ_t − κ s) to |τ| ≤ c + μ p where p > 0,   rough: no limit.
 //
 // Where it slips, the anchor is dragged along when a step is accepted, so that κ s = λ_t − τ there: R depends on the
 // committed state, and has no potential.
@@ -69,18 +69,18 @@ class ContactForce {
   using Touch = ContactTouch<K>;
 
   /// The surface must outlive this object.
-  ContactForce(const ContactSurface<K>& surface, Finder finder, double friction)
+  ContactForce(const ContactSurface<K>& surface, Finder finder, const ShearLimit& shear)
       : surface_(surface),
         finder_(std::move(finder)),
-        friction_(friction),
+        shear_(shear),
         lambda_(surface.patches().size(), 0.0),
-        lambda_t_(friction > 0 ? surface.patches().size() : 0, Position::Zero()),
-        anchor_(friction > 0 ? surface.size() : 0, Position::Zero()),
+        lambda_t_(shear.acts() ? surface.patches().size() : 0, Position::Zero()),
+        anchor_(shear.acts() ? surface.size() : 0, Position::Zero()),
         closed_(anchor_.size(), 0) {}
 
   Finder& finder() { return finder_; }
   const Finder& finder() const { return finder_; }
-  bool remembers() const { return friction_ > 0; }
+  bool remembers() const { return shear_.acts(); }
   /// Sets the anchors where the pieces are when a phase begins, less the slip that each has had.
   void anchor_at_start(double t, const std::vector<Position>& slip);
   /// The same in the first phase of a stage, of the pieces that the stage before did not have.
@@ -142,7 +142,7 @@ class ContactForce {
   template <class Visit>
   void for_stiffness(Tangent kind, const RigidPlacement<N>& placement, const double* u, const Visit& visit) const {
     for_touches(placement, u, touching,
-                [&](const Touch& touch) { visit(touch.piece, stiffness_of(kind, friction_, touch)); });
+                [&](const Touch& touch) { visit(touch.piece, stiffness_of(kind, shear_, touch)); });
   }
 
   /// Calls visit(touch) for each piece with λ − κ g ≥ −κ slack; slack: in cells.
@@ -159,7 +159,7 @@ class ContactForce {
 
   const ContactSurface<K>& surface_;
   Finder finder_;
-  double friction_;
+  ShearLimit shear_;
   Position settled_ = Position::Zero();  // d of the last commit, from where the next is looked for [m]
   // Of the patches:
   std::vector<double> lambda_;      // λ [Pa]
@@ -181,9 +181,9 @@ void ContactForce<K, Finder>::for_touches(const RigidPlacement<N>& placement, co
   finder_.for_near(placement, u, reach, [&](const typename TouchFinder<K>::Near& near) {
     const double kappa = patches[near.patch].stiffness;
     Touch touch{near, surface_.area(near.piece), kappa, std::max(0.0, lambda_[near.patch] - kappa * near.at.distance)};
-    if (friction_ > 0) {
+    if (shear_.acts()) {
       const Position slip = near.X - anchor_[near.piece];
-      add_friction<K>(friction_, placement.Q * (lambda_t_[near.patch] - kappa * slip), touch);
+      add_shear<K>(shear_, placement.Q * (lambda_t_[near.patch] - kappa * slip), touch);
     }
     visit(touch);
   });

@@ -1,7 +1,9 @@
-// The law of contact at a piece of a border: pressure and friction, and how they change with its position.
+// The law of contact at a piece of a border: pressure and shear, and how they change with its position.
 //
-//   p = max(0, λ − κ g),   τ = clip(λ_t − κ s) to |τ| ≤ μ p
+//   p = max(0, λ − κ g),   τ = clip(λ_t − κ s) to |τ| ≤ c + μ p where p > 0
 #pragma once
+
+#include <stillpoint/shear_limit.hpp>
 
 #include <algorithm>
 #include <array>
@@ -22,36 +24,37 @@ struct ContactTouch : TouchFinder<K>::Near {
   bool slips = false;
 };
 
-/// Adds friction with the coefficient μ; trial: λ_t − κ (X − a), in the scene's axes.
+/// Adds the shear within its limit; trial: λ_t − κ (X − a), in the scene's axes.
 template <Kinematics K>
-void add_friction(double mu, const typename TouchFinder<K>::Position& trial, ContactTouch<K>& touch) {
+void add_shear(const ShearLimit& shear, const typename TouchFinder<K>::Position& trial, ContactTouch<K>& touch) {
   const auto& n = touch.at.normal;
   touch.tau_trial = trial - n.dot(trial) * n;
-  const double size = touch.tau_trial.norm(), limit = touch.p > 0 ? mu * touch.p : 0;
+  const double size = touch.tau_trial.norm(), limit = shear.at(touch.p);
   touch.slips = size > limit || touch.p == 0;
   touch.tau = touch.tau_trial;
   if (touch.slips) touch.tau *= limit / std::max(size, limit);
   if (limit == 0) touch.tau.setZero();
 }
 
-/// −∂f/∂x of a piece, times A. With the direction d of τ where it slips at μ p,
+/// −∂f/∂x of a piece, times A. With the direction d of τ where it slips at its limit,
 ///
 ///   ∂τ/∂x = −κ (I − n nᵀ) where it sticks,   −μ κ d nᵀ − κ |τ|/|τ_trial| (I − n nᵀ − d dᵀ) where it slips.
 template <Kinematics K>
-auto stiffness_of(Tangent kind, double mu, const ContactTouch<K>& touch) {
+auto stiffness_of(Tangent kind, const ShearLimit& shear, const ContactTouch<K>& touch) {
   constexpr int N = TouchFinder<K>::N;
   using Matrix = Eigen::Matrix<double, N, N>;
   const auto& n = touch.at.normal;
   Matrix S = touch.kappa * n * n.transpose();
   if (kind != Tangent::stable) S -= touch.p * touch.at.hessian;
-  if (mu > 0) {
+  if (shear.acts()) {
     const Matrix along = Matrix::Identity() - n * n.transpose();
     if (kind != Tangent::consistent || !touch.slips) {
       S += touch.kappa * along;
     } else if (touch.p > 0) {
       const double size = touch.tau_trial.norm();
       const Eigen::Vector<double, N> d = touch.tau_trial / size;
-      S += mu * touch.kappa * d * n.transpose() + touch.kappa * touch.tau.norm() / size * (along - d * d.transpose());
+      S += shear.friction * touch.kappa * d * n.transpose() +
+           touch.kappa * touch.tau.norm() / size * (along - d * d.transpose());
     }
   }
   return Matrix(touch.area * S);

@@ -31,7 +31,7 @@ RigidContact<K>::RigidContact(const Problem& problem, const Grid<dim>& grid, con
                               double time_scale)
     : first_number_(first_number), surface_(problem, bodies_touched(problem), grid) {
   for (const RigidSpec& spec : problem.rigid)
-    bodies_.emplace_back(surface_, TouchFinder<K>(problem, spec, surface_, time_scale), spec.friction);
+    bodies_.emplace_back(surface_, TouchFinder<K>(problem, spec, surface_, time_scale), spec.shear);
 }
 
 template <Kinematics K>

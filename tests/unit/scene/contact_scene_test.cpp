@@ -53,11 +53,13 @@ TEST_CASE("a contact names two bodies, has no friction unless it says so, and a 
   const Scene scene = scene_of("[[contact]]\nbodies = [\"block\", \"base\"]");
   REQUIRE(scene.contacts.size() == 1);
   CHECK(scene.contacts[0].name() == "block+base");
-  CHECK(scene.contacts[0].friction == 0);
+  CHECK(scene.contacts[0].shear.friction == 0);
   CHECK_FALSE(scene.rubs());
   CHECK(static_cast<double>(scene.integrator.step_fraction) == 0.8);
-  CHECK(scene_of("[[contact]]\nbodies = [\"block\", \"base\"]\nfriction = 0.2").contacts[0].friction == 0.2);
-  CHECK(std::isinf(scene_of("[[contact]]\nbodies = [\"block\", \"base\"]\nfriction = \"rough\"").contacts[0].friction));
+  CHECK(scene_of("[[contact]]\nbodies = [\"block\", \"base\"]\nfriction = 0.2").contacts[0].shear.friction == 0.2);
+  CHECK(scene_of("[[contact]]\nbodies = [\"block\", \"base\"]\nadhesion = 5").rubs());
+  CHECK(std::isinf(
+      scene_of("[[contact]]\nbodies = [\"block\", \"base\"]\nfriction = \"rough\"").contacts[0].shear.friction));
 }
 
 TEST_CASE("a wrong contact has one message, which says what was expected") {
@@ -71,6 +73,8 @@ TEST_CASE("a wrong contact has one message, which says what was expected") {
              Contains("have a contact already"));
   CHECK_THAT(complaints(text_of("[mass]\nkind = \"multigrid\"\n[[contact]]\nbodies = [\"block\", \"base\"]")),
              Contains("does not know the stiffness of contact yet"));
+  CHECK_THAT(complaints(text_of("[[contact]]\nbodies = [\"block\", \"base\"]\nfriction = \"rough\"\nadhesion = 5")),
+             Contains("contact[0].adhesion: adds nothing to friction"));
 }
 
 TEST_CASE("a force where two bodies with a contact meet is refused by their names, and elsewhere has a body") {

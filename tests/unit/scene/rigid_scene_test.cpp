@@ -39,14 +39,14 @@ TEST_CASE("a rigid body in the plane loads with every key that it says, and with
   CHECK(punch.motion.at(1)({}, 2) == -0.02);
   CHECK(punch.rotation.at(0)({}, 2) == 0.2);
   CHECK(punch.about == std::vector{1.0, 2.0});
-  CHECK(punch.friction == 0.3);
+  CHECK(punch.shear.friction == 0.3);
   CHECK(punch.bodies == std::vector<std::string>{"block"});
 
   const RigidSpec plain = plane_scene("wedge = [[1, 1], [0, 1]]\nangle = 60").rigid.at(0);
   CHECK(plain.angle == 60);
   CHECK(plain.radius == 0);
   CHECK(plain.rounding == 0);
-  CHECK(plain.friction == 0);
+  CHECK(plain.shear.friction == 0);
   CHECK((plain.motion.empty() && plain.rotation.empty() && plain.about.empty() && plain.bodies.empty()));
 }
 
@@ -59,7 +59,7 @@ TEST_CASE("a rigid body in space turns by a vector of three formulas, may be rou
   REQUIRE(ball.rotation.size() == 3);
   CHECK(ball.rotation[1]({}, 3) == 3);
   CHECK(ball.motion.at(1)({}, 0) == 1);
-  CHECK(std::isinf(ball.friction));
+  CHECK(std::isinf(ball.shear.friction));
 }
 
 TEST_CASE("local damping takes its small share in a flow that a rigid body drives") {

@@ -59,7 +59,7 @@ TEST_CASE("a rigid body that is apart leaves R as it is to the bit, and reports 
 
 TEST_CASE("the tangent of contact is the derivative of its force, and symmetric without friction") {
   for (const std::string& kind : kinds) {
-    for (const char* friction : {"0", "0.3", "'rough'"}) {
+    for (const char* friction : {"0", "0.3", "'rough'", "0.2\nadhesion = 0.5", "0\nadhesion = 0.5"}) {
       CAPTURE(kind, friction);
       const auto phase = make_phase(touched_block(kind, ball_at(kind, 1.65) + "\nfriction = " + friction));
       const std::size_t n = phase->size();
