@@ -81,6 +81,7 @@ class LeftInPoints : public Watcher {
       verdict = {RunStatus::step_limit, fmt::format("no equilibrium: {}; it ended with {}", fault, verdict.reason)};
       return;
     }
+    if (phase.info().remembers) return;
     const double unfelt = phase.fields().null_space_stress(run.t, run.motion->u());
     if (const std::string note = null_space_note(run.scene, phase, unfelt); !note.empty())
       verdict.reason += "; but " + note;

@@ -1,6 +1,7 @@
 // Sums over material points at the grid's functions, as Σ_p m_p N_ip, the same bits for any number of threads.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <vector>
@@ -16,12 +17,12 @@ template <int Components, int PerCell>
 using Corners = std::array<double, static_cast<std::size_t>(Components* PerCell)>;
 
 /// The sums at the functions, (functions × Components). add_cell(k, corners) adds the contributions of the points of
-/// cell k.
+/// cell k. of_corners: work space, which grows to what is needed once.
 template <int Components, AxisBasis B, Kinematics K, class AddCell>
 std::vector<double> nodal_sum(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>&,
-                              const CornerSum& corner_sum, const AddCell& add_cell) {
+                              const CornerSum& corner_sum, const AddCell& add_cell, std::vector<double>& of_corners) {
   constexpr int per_cell = PointWeights<B, K>::per_cell;
-  std::vector<double> of_corners(Components * per_cell * points.cells() + CornerSum::slack);
+  of_corners.resize(std::max(of_corners.size(), Components * per_cell * points.cells() + CornerSum::slack));
   for_each_block(points.cells(), [&](std::size_t k) {
     Corners<Components, per_cell> corners{};
     add_cell(k, corners);
@@ -33,6 +34,12 @@ std::vector<double> nodal_sum(const MaterialPoints<dimensions(K)>& points, const
     for (int i = 0; i < Components; ++i) sums[Components * f + i] = total[i];
   });
   return sums;
+}
+template <int Components, AxisBasis B, Kinematics K, class AddCell>
+std::vector<double> nodal_sum(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>& weights,
+                              const CornerSum& corner_sum, const AddCell& add_cell) {
+  std::vector<double> of_corners;
+  return nodal_sum<Components>(points, weights, corner_sum, add_cell, of_corners);
 }
 
 /// G_i = Σ_p V_p A_p |∇N_ip| Σ_j |∇N_jp| with the wave modulus A_p = λ + 2μ, (functions) [N/m]: a bound of Σ_j |K_ij|

@@ -5,7 +5,8 @@
 // by conjugate gradients on the normal equations, scaled by their diagonal. The gradients determine what the values
 // leave open: a function that the body hardly reaches has N next to nothing at its points, but ∇N much larger. The
 // start is Σ_p m_p N_ip (w_p + g_p (x_i − x_p))/m_i with the functions' centres x_i, exact where w is linear in x, so
-// that few iterations are needed. The result has the same bits for any number of threads.
+// that few iterations are needed. The result has the same bits for any number of threads; one thread at a time makes
+// it.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +27,7 @@ struct PointValues {
 };
 
 struct PointFitOptions {
-  double gradient_share = 0.1;  // β
+  double gradient_share = 0.1;  // β; 0: gradients do not count
   double tolerance = 0;         // error of the fit, at most about this, in the unit of the values
   int iterations = 10;          // at most
 };
@@ -113,17 +114,25 @@ class PointFit {
     return sum;
   }
 
-  // The moments Σ_p m_p (N_ap value + β Σ_j h_j² ∂N_ap/∂x_j gradient_j) of value_at(k, p) and gradient_at(k, p).
+  // The moments Σ_p m_p (N_ap value + β Σ_j h_j² ∂N_ap/∂x_j gradient_j) of value_at(k, p) and, unless β is 0,
+  // gradient_at(k, p).
   template <class ValueAt, class GradientAt>
   std::vector<double> moments(const ValueAt& value_at, const GradientAt& gradient_at) const {
-    return nodal_sum<Components>(points_, weights_, corner_sum_, [&](std::size_t k, Corner& corner) {
+    const bool by_gradients = options_.gradient_share > 0;
+    const auto add_cell = [&](std::size_t k, Corner& corner) {
       const std::array<double, dim> gradient_weight = gradient_weights(k);
       for (std::size_t p = points_.begin(k); p < points_.end(k); ++p) {
         const double m = values_.mass[p];
         if (m == 0) continue;
         const auto N = weights_.N(k, p);
-        const auto dN = weights_.dN(k, p);
         const auto w = value_at(k, p);
+        if (!by_gradients) {
+          for (int a = 0; a < per_cell; ++a) {
+            for (int i = 0; i < Components; ++i) corner[Components * a + i] += m * (N[a] * w[i]);
+          }
+          continue;
+        }
+        const auto dN = weights_.dN(k, p);
         const auto g = gradient_at(k, p);
         for (int a = 0; a < per_cell; ++a) {
           for (int i = 0; i < Components; ++i) {
@@ -133,7 +142,8 @@ class PointFit {
           }
         }
       }
-    });
+    };
+    return nodal_sum<Components>(points_, weights_, corner_sum_, add_cell, of_corners_);
   }
   std::vector<double> apply(const std::vector<double>& z) const {
     return moments([&](std::size_t k, std::size_t p) { return value(z, k, p); },
@@ -221,6 +231,7 @@ class PointFit {
   const CornerSum& corner_sum_;
   const Values& values_;
   Options options_;
+  mutable std::vector<double> of_corners_;  // work space of the sums
 };
 
 }  // namespace stillpoint
