@@ -113,6 +113,16 @@ TEST_CASE("adhesion holds a block with its stress times the area that is pressed
   }
 }
 
+TEST_CASE("clay that flows around a bar leaves no point behind in it") {
+  const Summary s = run_ladder(
+      "dragged_bar", {"grid.x=[[-4,4,48]]", "grid.y=[[0,3.25,20]]", "material.clay.E=300", "constants.v=0.1",
+                      "body.points_per_cell=9", "phase.dilatation=cells", "damping.strategy=one-sided", "stop.time=16",
+                      "rigid[0].force=['0','-8*q*s_u*min(t/2,1)']", "rigid[1].motion=['v*max(t-3,0)','0']"});
+  REQUIRE(s.status == RunStatus::end_time);
+  CHECK(s.contacts.at("bar.contact_area") > 1.5);  // it goes around
+  for (const std::string& note : s.notes) CHECK_THAT(note, !Catch::Contains("has gone past the border"));
+}
+
 TEST_CASE("in space a block slides the way that its load points, and friction acts the other way") {
   const Scene scene = load_scene("slide.toml", R"(
 dim = 3

@@ -177,6 +177,11 @@ std::vector<Intrusion> Conditions<K>::intrusions(const Parts& phase, double t, c
 }
 
 template <Kinematics K>
+RigidFaces<K> Conditions<K>::faces_of_rigid_bodies(double t, const double* u) const {
+  return rigid_contact_->faces(t, u);
+}
+
+template <Kinematics K>
 bool Conditions<K>::is_ahead(std::size_t body, const Point<dim>& direction, double t, const double* u) const {
   return rigid_contact_->is_ahead(body, direction, t, u);
 }

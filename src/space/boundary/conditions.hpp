@@ -22,6 +22,8 @@ namespace stillpoint {
 template <Kinematics K>
 class RigidContact;  // rigid_contact.hpp
 template <Kinematics K>
+class RigidFaces;  // rigid_faces.hpp
+template <Kinematics K>
 class BodyContact;  // body_contact.hpp
 
 template <Kinematics K>
@@ -89,6 +91,8 @@ class Conditions {
   void update_multipliers(double t, const double* u);
   bool ask_for_next_phase(ConstVec u) const;
   void end_phase(double t, const double* u);
+  /// As RigidContact::faces().
+  RigidFaces<K> faces_of_rigid_bodies(double t, const double* u) const;
   /// As BoundaryCondition::renumber().
   void renumber(const std::vector<int>& now_of, int functions) {
     for (const auto& condition : all_) condition->renumber(now_of, functions);

@@ -209,6 +209,13 @@ void RigidContact<K>::add_reports(double t, const double* u, std::vector<Contact
   }
 }
 
+template <Kinematics K>
+RigidFaces<K> RigidContact<K>::faces(double t, const double* u) const {
+  RigidFaces<K> faces(first_number_);
+  for (const RigidBody& rigid : bodies_) faces.add(rigid.finder(), rigid.placement(t, u));
+  return faces;
+}
+
 template class RigidContact<Kinematics::line>;
 template class RigidContact<Kinematics::plane>;
 template class RigidContact<Kinematics::axisymmetric>;

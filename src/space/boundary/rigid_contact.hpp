@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "space/boundary/contact_force.hpp"
+#include "space/boundary/rigid_faces.hpp"
 
 namespace stillpoint {
 
@@ -58,6 +59,8 @@ class RigidContact {
   void add_reports(double t, const double* u, std::vector<ContactReport>& to) const;
   /// What lies in rigid bodies at (t, u), at most one place of a kind for each.
   std::vector<Intrusion> intrusions(const Parts& phase, double t, const double* u) const;
+  /// The faces of the rigid bodies at (t, u), at the end of a phase.
+  RigidFaces<K> faces(double t, const double* u) const;
   /// Whether a rigid body that is not free is ahead of a body that goes on along a unit vector from (t, u), by the rays
   /// from its border.
   bool is_ahead(std::size_t body, const Point<dim>& direction, double t, const double* u) const;

@@ -17,6 +17,7 @@
 #include "scene/dimensions.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/conditions.hpp"
+#include "space/boundary/rigid_faces.hpp"
 #include "space/kernels/velocity_transfer.hpp"
 #include "space/phase/deformation_from_positions.hpp"
 #include "space/phase/grid_faces.hpp"
@@ -107,7 +108,7 @@ class Remap {
     frame_.unknowns.spread(t, u, work->u);
     const std::vector<double> grid_v = frame_.unknowns.velocities(t, v);
     const GridFaces<dim> faces(frame_.problem, next_grid, conditions_.act_on_axis());
-    const bool some_past_a_face = find_positions(next_grid, faces, work->u, grid_v);
+    const bool some_past_a_face = find_positions(t, next_grid, faces, work->u, grid_v);
     motion_since_deformation_ += motion;
     move_points(t, *work, grid_v);
     if (some_past_a_face) faces.put_back(points_);
@@ -142,16 +143,18 @@ class Remap {
   // Computes the positions to which grid_u and grid_v take the points, before anything changes: a run that ends here
   // still has its state. Throws PointLost if one is outside the next grid. Returns whether one has to be put back onto
   // a face.
-  bool find_positions(Grid<dim>& next_grid, const GridFaces<dim>& faces, const std::vector<double>& grid_u,
+  bool find_positions(double t, Grid<dim>& next_grid, const GridFaces<dim>& faces, const std::vector<double>& grid_u,
                       const std::vector<double>& grid_v) {
     const std::size_t none = points_.cells();
     std::size_t first_outside = none;  // the first cell with a point past a face
     bool all_have_numbers = true;
     const NextCells<dim> next_cells(next_grid);
     order_.cells().resize(points_.size());
-    const PointMotion<B, K>& motion = transfer_.motion();
+    PointMotion<B, K>& motion = transfer_.motion();
+    const RigidFaces<K> rigid_faces = conditions_.faces_of_rigid_bodies(t, grid_u.data());
     std::mutex outside_is_written;
     const auto find_cells = [&](std::size_t k) {
+      if (!points_.has_domains()) rigid_faces.put_back(points_, k, frame_.grid, frame_.weights.cell_at(k), motion.x);
       const auto found = next_cells.find(points_, k, frame_.weights.cell_at(k), motion.x, order_.cells());
       if (found.all_inside && found.all_have_numbers) return;
       const std::scoped_lock lock(outside_is_written);
