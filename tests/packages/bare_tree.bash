@@ -32,12 +32,17 @@ make_bare_tree() {
   mkdir "$tree/work"
 }
 
-# takes_the_widest PROGRAM: 'x86-64-v4 (supported, searched)' is the widest for which the loader looks.
+# takes_the_widest PROGRAM SET…: of the sets of instructions with a library of their own, widest first, the loader takes the
+# first that the processor has; its list has lines like 'x86-64-v4 (supported, searched)'.
 takes_the_widest() {
-  local set
-  set=$(inside /lib64/ld-linux-x86-64.so.2 --help | sed -nE 's/^ +(x86-64-v[34]) \(supported, searched\)$/\1/p' | sed -n 1p)
+  local program=$1 set supported
+  shift
+  supported=$(inside /lib64/ld-linux-x86-64.so.2 --help | sed -nE 's/^ +(x86-64-v[0-9]) \(supported, searched\)$/\1/p')
+  for set in "$@" ''; do
+    if [[ -z $set ]] || grep -qx "$set" <<<"$supported"; then break; fi
+  done
   echo "the widest: ${set:-none}"
-  inside ldd "$1" | grep "${set:+glibc-hwcaps/$set/}libstillpoint"
+  inside ldd "$program" | grep "${set:+glibc-hwcaps/$set/}libstillpoint"
 }
 
 work=$(mktemp -d)
