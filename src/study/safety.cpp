@@ -99,12 +99,10 @@ SafetyStudy bracket(const Scene& scene, const SafetyOptions& options) {
   ReducedBody body(scene, options);
   take(body.first(), study);
   study.notes = body.notes();
-  const auto rubs = [](const auto& touching) { return touching.shear.acts(); };
-  if (std::ranges::any_of(scene.rigid, rubs) || std::ranges::any_of(scene.contacts, rubs))
+  if (scene.rubs())
     study.notes.emplace_back(
         "the friction and adhesion of rigid bodies and contacts are not divided by the factor: what slides along them "
-        "may do so "
-        "without a bracket; expected a thin layer of soil there, if its strength is to count");
+        "may do so without a bracket; expected a thin layer of soil there, if its strength is to count");
   const StopScope scope(is_interrupted);
   try {
     for (auto factor = next_factor(study, options); factor && !is_interrupted(); factor = next_factor(study, options)) {

@@ -32,8 +32,7 @@ bool is_touched(const Scene& scene, const std::string& body) {
 template <class Spec>
 void check_shear(SceneCheck& check, const char* kind, const std::vector<Spec>& specs) {
   for (std::size_t k = 0; k < specs.size(); ++k)
-    check.wrong_if(specs[k].shear.acts() && !specs[k].shear.ends() && specs[k].shear.adhesion > 0,
-                   fmt::format("{}[{}].adhesion", kind, k),
+    check.wrong_if(specs[k].shear.adhesion > 0 && !specs[k].shear.ends(), fmt::format("{}[{}].adhesion", kind, k),
                    "adds nothing to friction = \"rough\", which has no limit; leave out one of the two");
 }
 
