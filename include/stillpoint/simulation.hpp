@@ -23,6 +23,7 @@
 
 namespace stillpoint {
 
+class Ranks;             // opaque: for the command
 class Stepper;           // <stillpoint/stepper.hpp>
 class SetUpStore;        // opaque: for the library's own studies
 struct SimulationParts;  // opaque: for the library's own studies, tests and Python module
@@ -60,6 +61,9 @@ struct SimulationOptions {
   /// A store of what simulations of one body share, if they differ only in damping, integrator and solver; it must
   /// outlive them. Null: each makes its own.
   SetUpStore* store = nullptr;
+  /// The processes that run this simulation together, each of which makes a Simulation of the same scene. Null: this
+  /// one alone.
+  std::shared_ptr<const Ranks> ranks{};
 };
 
 /// Thrown if the set-up of a simulation was interrupted, or took longer than stop.wall_time; what() says which.

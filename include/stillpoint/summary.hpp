@@ -73,6 +73,7 @@ struct Summary {
   int phases = 1;
   std::size_t points = 0, dofs = 0;
   int threads = 1;
+  int ranks = 1;  // processes that have shared the points
   double wall_s = 0, ns_per_point_step = 0;
   double bytes_per_point = 0;
   double residual = 0, kinetic_energy = 0;

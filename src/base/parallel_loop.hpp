@@ -59,10 +59,10 @@ inline void for_each_block(std::size_t n, const Body& body) {
   }
 }
 
-/// For each k < count ≤ most: Σ term(k, 0) … term(k, n−1), each the ExactSum of its terms alone, so that neither
-/// threads nor other k change it. All are done in one pass over memory, in pieces that the first-level cache holds.
+/// For each k < count ≤ most: term(k, 0) + … + term(k, n−1), so that neither threads nor other k change it. All are
+/// done in one pass over memory, in pieces that the first-level cache holds.
 template <std::size_t most, class Term>
-inline std::array<double, most> sum_each(std::size_t count, std::size_t n, const Term& term) {
+inline std::array<ExactSum, most> exact_sums(std::size_t count, std::size_t n, const Term& term) {
   std::array<ExactSum, most> sums;
   const auto add_entries = [count, &term](std::size_t begin, std::size_t end, std::array<ExactSum, most>& to) {
     constexpr std::size_t piece = 512;
@@ -82,6 +82,13 @@ inline std::array<double, most> sum_each(std::size_t count, std::size_t n, const
       for (std::size_t k = 0; k < count; ++k) sums[k].add(of_part[k]);
     });
   }
+  return sums;
+}
+
+/// The values of these sums, each rounded once.
+template <std::size_t most, class Term>
+inline std::array<double, most> sum_each(std::size_t count, std::size_t n, const Term& term) {
+  const std::array<ExactSum, most> sums = exact_sums<most>(count, n, term);
   std::array<double, most> values{};
   for (std::size_t k = 0; k < count; ++k) values[k] = sums[k].value();
   return values;

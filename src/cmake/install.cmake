@@ -1,5 +1,5 @@
-# What is installed, by components: command, library, development, python, multigrid (src/cmake/packages.cmake makes a
-# Debian package of each).
+# What is installed, by components: command, library, development, python, multigrid, ranks (src/cmake/packages.cmake
+# makes a Debian package of each).
 include(CMakePackageConfigHelpers)
 set(STILLPOINT_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/stillpoint)
 

@@ -21,9 +21,11 @@ function(add_stillpoint_library target)
       target_link_options(${target} INTERFACE "LINKER:--export-dynamic-symbol=${routine}")
     endforeach()
   endif()
-  if(STILLPOINT_MULTIGRID_MODULE)
-    add_dependencies(${target} stillpoint_multigrid)  # whoever has the library finds the module
-  endif()
+  foreach(module multigrid ranks)
+    if(TARGET stillpoint_${module})
+      add_dependencies(${target} stillpoint_${module})  # whoever has the library finds the module
+    endif()
+  endforeach()
 
   if(BUILD_SHARED_LIBS)
     # Nobody replaces a function of the library by one of the same name: gcc may inline as in a program.
@@ -44,6 +46,9 @@ foreach(source IN LISTS STILLPOINT_SOURCES)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
   endif()
 endforeach()
+set_source_files_properties(src/base/own_module.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON COMPILE_DEFINITIONS
+  "STILLPOINT_LIBDIR=\"${CMAKE_INSTALL_LIBDIR}\";STILLPOINT_FULL_LIBDIR=\"${CMAKE_INSTALL_FULL_LIBDIR}\"")
 set_source_files_properties(src/linalg/multigrid.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON COMPILE_DEFINITIONS
-  "STILLPOINT_MULTIGRID_MODULE=\"${STILLPOINT_MULTIGRID_MODULE}\";STILLPOINT_LIBDIR=\"${CMAKE_INSTALL_LIBDIR}\";\
-STILLPOINT_FULL_LIBDIR=\"${CMAKE_INSTALL_FULL_LIBDIR}\"")
+  "STILLPOINT_MULTIGRID_MODULE=\"${STILLPOINT_MULTIGRID_MODULE}\"")
+set_source_files_properties(src/parallel/start_ranks.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON COMPILE_DEFINITIONS
+  "STILLPOINT_RANKS_MODULE=\"${STILLPOINT_RANKS_MODULE}\"")

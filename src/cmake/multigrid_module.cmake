@@ -6,9 +6,6 @@ if(STILLPOINT_GPL AND STILLPOINT_PETSC)
   if(PkgConfig_FOUND)
     pkg_check_modules(PETSC QUIET IMPORTED_TARGET PETSc)
   endif()
-  find_path(STILLPOINT_MPI_INCLUDE mpi.h PATH_SUFFIXES openmpi/include openmpi mpich HINTS
-    /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/openmpi/include)
-  find_library(STILLPOINT_MPI mpi)
   if(PETSC_FOUND AND STILLPOINT_MPI_INCLUDE AND STILLPOINT_MPI)
     add_library(stillpoint_multigrid MODULE src/linalg/gamg.cpp)
     set_target_properties(stillpoint_multigrid PROPERTIES

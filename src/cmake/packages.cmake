@@ -4,6 +4,7 @@
 #   libstillpoint-dev       development  headers, CMake package, pkg-config
 #   python3-stillpoint      python       the Python module
 #   stillpoint-multigrid    multigrid    what calls PETSc, which half the users never need and which brings MPI
+#   stillpoint-mpi          ranks        what calls MPI, for runs of several processes
 option(STILLPOINT_PACKAGES "Prepare the files that only Debian's packages have" OFF)
 if(NOT STILLPOINT_PACKAGES)
   return()
@@ -71,7 +72,7 @@ stillpoint_package(command stillpoint "quasi-static equilibrium in the material 
   "${about}This package has the command and its scenes."
   PACKAGE_DEPENDS "libstillpoint0 ${same}"
   PACKAGE_RECOMMENDS "libopenblas0-openmp"
-  PACKAGE_SUGGESTS "python3-matplotlib, python3-h5py, python3-stillpoint, stillpoint-multigrid")
+  PACKAGE_SUGGESTS "python3-matplotlib, python3-h5py, python3-stillpoint, stillpoint-multigrid, stillpoint-mpi")
 stillpoint_package(library libstillpoint0 "material point method, relaxed to equilibrium - library"
   "${about}This package has the shared library, for several processors of this
 architecture, of which the loader takes the widest that it can."
@@ -92,5 +93,11 @@ if(TARGET stillpoint_multigrid)
     "${about}This package has what mass.kind = \"multigrid\" needs, for large bodies
 in space."
     PACKAGE_DEPENDS "libstillpoint0 ${same}")
+endif()
+if(TARGET stillpoint_ranks)
+  stillpoint_package(ranks stillpoint-mpi "material point method, relaxed to equilibrium - several processes"
+    "${about}This package has what a run needs that mpirun starts as several
+processes, on one machine or on several."
+    PACKAGE_DEPENDS "libstillpoint0 ${same}, openmpi-bin")
 endif()
 include(CPack)

@@ -229,8 +229,9 @@ int dispatch(int argc, char** argv) {
                run_arguments.resume.string(), run_arguments.scene.file.string());
     return bad_input;
   }
-  const bool writes = run_app.parsed() || compare_app.parsed() || converge_app.parsed() || safety_app.parsed();
-  if (writes && refuses_copies()) return bad_input;
+  const bool is_study = compare_app.parsed() || converge_app.parsed() || safety_app.parsed();
+  if (is_study && refuses(launched_copies(), "one copy, whose --threads take the cores of one machine"))
+    return bad_input;
   if (run_app.parsed()) return run(run_arguments);
   if (compare_app.parsed()) return compare(compare_arguments);
   if (converge_app.parsed()) return converge(converge_arguments);

@@ -32,23 +32,25 @@ int number_in(const char* variable) {
 
 }  // namespace
 
-bool refuses_copies() {
-  for (const Launcher& launcher : launchers) {
-    const int copies = number_in(launcher.size);
-    if (copies <= 1) continue;
-    if (number_in(launcher.rank) != 0) {
-      // A launcher ends all copies with the first that fails: this one waits until the message is out.
-      std::this_thread::sleep_for(std::chrono::seconds(1));
-      return true;
-    }
-    fmt::print(stderr,
-               "{} has started {} copies of this command, which would write into one folder; expected one copy, whose "
-               "--threads take the cores of one machine. For runs of different scenes side by side, take {} from their "
-               "environment\n",
-               launcher.name, copies, launcher.size);
+Copies launched_copies() {
+  for (const Launcher& launcher : launchers)
+    if (const int count = number_in(launcher.size); count > 1)
+      return {launcher.name, launcher.size, count, number_in(launcher.rank)};
+  return {};
+}
+
+bool refuses(const Copies& copies, const char* instead) {
+  if (copies.count <= 1) return false;
+  if (copies.rank != 0) {
+    // A launcher ends all copies with the first that fails: this one waits until the message is out.
+    std::this_thread::sleep_for(std::chrono::seconds(1));
     return true;
   }
-  return false;
+  fmt::print(stderr,
+             "{} has started {} copies of this command, which would write into one folder; expected {}. For runs of "
+             "different scenes side by side, take {} from their environment\n",
+             copies.launcher, copies.count, instead, copies.size);
+  return true;
 }
 
 }  // namespace stillpoint::command

@@ -1,41 +1,27 @@
 // stillpoint: the command. Exit status: 0 success, 2 bad input, 3 not in equilibrium within the limits, 4 failed.
-#include <stillpoint/scene_error.hpp>
-#include <stillpoint/state_archive.hpp>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <exception>
-#include <new>
 
 #include <fmt/format.h>
 #include <malloc.h>
 
 #include "base/work_apart.hpp"
 #include "command/command_line.hpp"
+#include "command/failure.hpp"
 
 namespace {
 
-constexpr int failed = 4;
-
-using stillpoint::command::bad_input;
+using stillpoint::command::failed;
 
 int exit_status(int argc, char** argv) {
   try {
     return stillpoint::command::dispatch(argc, argv);
-  } catch (const stillpoint::SceneError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return bad_input;
-  } catch (const stillpoint::StateError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return bad_input;
-  } catch (const std::bad_alloc&) {
-    std::fputs("stillpoint: no memory is left\n", stderr);
-    return failed;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "stillpoint: {}\n", error.what());
-    return failed;
+  } catch (...) {
+    const auto [status, message] = stillpoint::command::failure_of_exception();
+    fmt::print(stderr, "{}\n", message);
+    return status;
   }
 }
 

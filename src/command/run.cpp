@@ -2,16 +2,28 @@
 #include <stillpoint/integrator.hpp>
 #include <stillpoint/run.hpp>
 
+#include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
 
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "base/thread_team.hpp"
+#include "command/command_line.hpp"
 #include "command/commands.hpp"
+#include "command/failure.hpp"
+#include "command/launcher.hpp"
 #include "command/terminal.hpp"
 #include "output/checkpoint_file.hpp"
+#include "parallel/start_ranks.hpp"
 #include "plan/catalogue.hpp"
 
 namespace stillpoint::command {
@@ -60,7 +72,8 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
         fmt::format("u {:.3e} (L2), {:.3e} (max){}", s.error->u_rel_l2, s.error->u_rel_max,
                     s.error->stress_rel_l2 ? fmt::format(", stress {:.3e} (L2)", *s.error->stress_rel_l2) : ""));
   }
-  row("wall time", fmt::format("{:.4g} s, {:.1f} ns a point and step, {}", s.wall_s, s.ns_per_point_step,
+  row("wall time", fmt::format("{:.4g} s, {:.1f} ns a point and step, {}{}", s.wall_s, s.ns_per_point_step,
+                               s.ranks > 1 ? counted(static_cast<std::size_t>(s.ranks), "rank") + " of " : "",
                                counted(static_cast<std::size_t>(s.threads), "thread")));
   if (s.mass_error && s.momentum_error && s.added_mass) {
     const std::string turn =
@@ -123,26 +136,88 @@ std::filesystem::path checkpoint_of(const std::filesystem::path& folder_or_file)
                   folder_or_file.string()));
 }
 
-}  // namespace
+// The folder of what a rank after the first writes: the first alone leaves anything.
+class FolderOfNobody {
+ public:
+  /// resumed: the folder of a run that goes on, whose files it takes; empty: there is none.
+  explicit FolderOfNobody(const std::filesystem::path& resumed) {
+    std::string name = (std::filesystem::temp_directory_path() / "stillpoint-rank-XXXXXX").string();
+    if (!mkdtemp(name.data()))
+      throw std::filesystem::filesystem_error("mkdtemp", name, std::error_code(errno, std::generic_category()));
+    path_ = name;
+    if (!resumed.empty()) std::filesystem::copy(resumed, path_, std::filesystem::copy_options::recursive);
+  }
+  ~FolderOfNobody() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  FolderOfNobody(const FolderOfNobody&) = delete;
+  FolderOfNobody& operator=(const FolderOfNobody&) = delete;
+  const std::filesystem::path& path() const { return path_; }
 
-int run(const RunArguments& arguments) {
-  watch_for_interrupt();
+ private:
+  std::filesystem::path path_;
+};
+
+int run_alone(const RunArguments& arguments, const std::shared_ptr<const Ranks>& ranks) {
   const bool resumes = !arguments.resume.empty();
   const std::filesystem::path checkpoint = resumes ? checkpoint_of(arguments.resume) : std::filesystem::path();
   const Scene scene = resumes ? load_scene_of(checkpoint) : load_scene(arguments.scene.file, arguments.scene.overrides);
-  const std::filesystem::path out = resumes                 ? checkpoint.parent_path()
-                                    : arguments.out.empty() ? std::filesystem::path("out") / scene.name
-                                                            : arguments.out;
+  const std::filesystem::path out = !arguments.out.empty() ? arguments.out
+                                    : resumes              ? checkpoint.parent_path()
+                                                           : std::filesystem::path("out") / scene.name;
   ProgressLine line;
-  SimulationOptions options{.out = out, .resume = checkpoint, .threads = arguments.threads, .interrupted = interrupted};
+  SimulationOptions options{
+      .out = out, .resume = checkpoint, .threads = arguments.threads, .interrupted = interrupted, .ranks = ranks};
   if (!arguments.quiet) options.progress = [&line](const Progress& progress) { line.show(progress); };
   const Summary summary = stillpoint::run(scene, options);
   line.finish();
   if (!arguments.quiet) print_table(summary, out);
   if (summary.exit_status != 0) {
-    fmt::print(stderr, "stillpoint: {}: {}\n", to_string(summary.status), summary.reason);
+    if (!ranks || ranks->rank() == 0)
+      fmt::print(stderr, "stillpoint: {}: {}\n", to_string(summary.status), summary.reason);
   }
   return summary.exit_status;
+}
+
+// One of the ranks of a run. All of them do the same; the first leaves the files, and says what there is to say.
+int run_as_rank(RunArguments arguments, const std::shared_ptr<const Ranks>& ranks) {
+  std::optional<FolderOfNobody> folder;
+  try {
+    // What a launcher leaves free of a machine's cores is theirs in equal shares.
+    if (arguments.threads == 0) arguments.threads = std::max(1, loop_threads() / ranks->on_this_machine());
+    if (ranks->rank() > 0) {
+      arguments.quiet = true;
+      const bool resumes = !arguments.resume.empty();
+      arguments.out = folder.emplace(resumes ? checkpoint_of(arguments.resume).parent_path() : "").path();
+    }
+    return run_alone(arguments, ranks);
+  } catch (...) {
+    const auto [status, message] = failure_of_exception();
+    folder.reset();
+    if (ranks->fails_with_all(status, message)) fmt::print(stderr, "{}\n", message);
+    return status;
+  }
+}
+
+}  // namespace
+
+int run(const RunArguments& arguments) {
+  watch_for_interrupt();
+  const Copies copies = launched_copies();
+  if (copies.count == 1) return run_alone(arguments, nullptr);
+  std::shared_ptr<const Ranks> ranks;
+  try {
+    ranks = start_ranks();
+  } catch (const std::runtime_error& error) {
+    refuses(copies, error.what());
+    return bad_input;
+  }
+  if (ranks->count() != copies.count) {
+    refuses(copies, "a launcher of the MPI that this program is built with");
+    return bad_input;
+  }
+  return run_as_rank(arguments, ranks);
 }
 
 }  // namespace stillpoint::command

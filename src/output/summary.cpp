@@ -99,6 +99,7 @@ std::string to_json(const Summary& s) {
                      {"points", s.points},
                      {"dofs", s.dofs},
                      {"threads", s.threads},
+                     {"ranks", s.ranks},
                      {"wall_s", number(s.wall_s)},
                      {"ns_per_point_step", number(s.ns_per_point_step)},
                      {"bytes_per_point", number(s.bytes_per_point)},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -9,9 +10,11 @@
 
 #include "base/atomic_file.hpp"
 #include "base/stop_request.hpp"
+#include "parallel/of_all.hpp"
 #include "simulation/later_ground.hpp"
 #include "simulation/other_run.hpp"
 #include "simulation/setup/model.hpp"
+#include "simulation/setup/ranks_refusal.hpp"
 
 namespace stillpoint {
 namespace {
@@ -67,8 +70,9 @@ Model RunState::set_up() {
     heed_stop_request();
     if (stage.number == 0 && !scene.stages.empty()) check_ground_of_later_stages(scene);
     if (!scene.initial_from.empty() && !stage.carried) stage.carried = points_of_other_run(scene);
+    if (options.ranks) refuse_what_ranks_lack(scene);
     return make_model(scene, require_memory(make_plan(scene)), stage.carried ? nullptr : options.store,
-                      {.carried = stage.carried.get(), .t = stage.t});
+                      {.carried = stage.carried.get(), .t = stage.t, .ranks = options.ranks.get()});
   } catch (const Stopped&) {
     throw SetUpStopped(end_request.status(), end_request.reason() + " in the set-up; the run has not begun",
                        wall.seconds());
@@ -100,12 +104,25 @@ bool RunState::loads_settled() const {
   return loads_stay() && (!contact || contact->is_settled()) && contact_settled;
 }
 
+void RunState::check_that_ranks_agree() const {
+  if (!options.ranks || !motion) return;
+  std::uint64_t sum = 0;
+  for (const ConstVec values : {motion->u(), motion->v()})
+    sum = checksum(sum, values.data(), values.size() * sizeof(double));
+  const std::vector<std::uint64_t> sums = of_all(options.ranks.get(), sum);
+  if (std::ranges::any_of(sums, [sum](std::uint64_t other) { return other != sum; }))
+    throw std::runtime_error(
+        failed("the ranks have come apart, as their processors do not compute alike; expected machines of one kind")
+            .reason);
+}
+
 Verdict RunState::failed(const std::string& what) const {
   return {RunStatus::failed, fmt::format("at t = {:.6g} s, after {} steps, in phase {}: {}", t, steps(), phases, what)};
 }
 
+// Ranks come to an end together, between two steps.
 std::function<bool()> RunState::asks_to_end() {
-  if (!options.stops) return {};
+  if (!options.stops || options.ranks) return {};
   return [this] { return end_request.asked(); };
 }
 

@@ -45,10 +45,13 @@ struct RunState {
   bool loads_settled() const;
   /// True if loads, supports, rigid bodies and what a stage lets come on are what they will be at the end of the stage.
   bool loads_stay() const;
-  /// The question whether the run is to end, as a function; empty if the run heeds no such request.
+  /// The question whether the run is to end, as a function; empty if the run heeds no such request while it is at work.
   std::function<bool()> asks_to_end();
   /// The verdict that the run has failed now: "at t = 0.31 s, after 120 steps, in phase 3: " and what happened.
   Verdict failed(const std::string& what) const;
+
+  /// Throws std::runtime_error if the ranks of the run do not all have the same motion.
+  void check_that_ranks_agree() const;
 
   /// The velocities with which the next phase or stage begins, (n); a fictitious inertia has none that could go on.
   std::vector<double> velocity_to_hand_on() const;

@@ -87,6 +87,8 @@ void Simulation::Impl::take_step(double t_stop) {
 }
 
 void Simulation::Impl::end_step() {
+  constexpr long steps_between_looks = 100;
+  if (run_->steps() % steps_between_looks == 0) run_->check_that_ranks_agree();
   if (run_->options.stops) judge();
   record(done());
   report_progress();
@@ -210,7 +212,7 @@ void Simulation::Impl::report_progress() {
 }
 
 void Simulation::Impl::end_if_asked() {
-  const bool ends = run_->options.stops && run_->end_request.asked();
+  const bool ends = run_->options.stops && run_->end_request.asked_of_any(run_->options.ranks.get());
   if (ends) end_as_asked("the step was finished");
   if (leaves_checkpoints() && (checkpoint_is_due() || ends)) leave_checkpoint();
   if (ends) record(true);
@@ -220,6 +222,7 @@ void Simulation::Impl::finish() {
   // Other runs may begin with what this one leaves. A run that went wrong keeps the last state that was good, and one
   // that was asked to end has left its own.
   const bool is_over = is_own_end(verdict_.status);
+  if (is_readable_) run_->check_that_ranks_agree();
   if (is_readable_ && is_over && leaves_checkpoints()) {
     leave_checkpoint();
     // Who goes on from there evaluates the state anew, from what points have committed: so does this run, for what it

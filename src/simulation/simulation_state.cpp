@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "output/checkpoint_file.hpp"
+#include "parallel/of_all.hpp"
 #include "simulation/simulation_impl.hpp"
 
 namespace stillpoint {
@@ -116,8 +117,9 @@ bool Simulation::Impl::checkpoint_is_due() {
     if (steps % (when.every_steps > 0 ? when.every_steps : default_interval) != 0) return false;
     run_->motion->stepper->start(run_->t, run_->motion->y);
   }
+  const bool has_come = when.every > 0 && run_->wall.seconds() >= next_checkpoint_s_;
   return (when.every_steps > 0 && steps - last_checkpoint_ >= when.every_steps) ||
-         (when.every > 0 && run_->wall.seconds() >= next_checkpoint_s_);
+         (when.every > 0 && is_so_for_any(run_->options.ranks.get(), has_come));
 }
 
 void Simulation::Impl::leave_checkpoint() {

@@ -71,6 +71,7 @@ Summary Simulation::Impl::summary() {
   s.rhs_evaluations = run_->evaluations();
   s.phases = run_->phases;
   s.threads = thread_choice_.usual();
+  if (run_->options.ranks) s.ranks = run_->options.ranks->count();
   s.wall_s = run_->wall_s();
   if (s.steps > 0)
     s.ns_per_point_step = 1e9 * run_->stepping_s / (static_cast<double>(s.steps) * static_cast<double>(s.points));

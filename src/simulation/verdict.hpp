@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/stopwatch.hpp"
+#include "parallel/of_all.hpp"
 #include "simulation/phase_motion.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
@@ -47,6 +48,22 @@ class EndRequest {
       request_ = {RunStatus::interrupted, "interrupted by the user"};
     }
     return request_.ends();
+  }
+  /// True if the run is to end on any rank: as the first of them says, or as the first that was asked.
+  bool asked_of_any(const Ranks* ranks) {
+    if (!ranks) return asked();
+    if (asked()) ranks->wish_for_end();
+    if (!ranks->someone_wishes_end()) return false;
+    struct Answer {
+      RunStatus status;
+    };
+    const std::string reason = first_text(ranks, request_.reason);
+    for (const auto& [status] : of_all(ranks, Answer{request_.status})) {
+      if (status == RunStatus::running) continue;
+      request_ = {status, reason};
+      break;
+    }
+    return true;
   }
   /// time_limit or interrupted; running if nothing has asked for the end.
   RunStatus status() const { return request_.status; }

@@ -123,6 +123,62 @@ TEST_CASE("a static solver, which puts the loads on at once, says what of their 
                   .unbalanced_plastic_work);
 }
 
+TEST_CASE("a block in space that is sheared across z has the plastic work of the same block in the plane") {
+  const std::string rest = R"(
+material = "clay"
+placement = "gauss"
+[material.clay]
+law = "drucker-prager"
+E = 100.0
+nu = 0.3
+rho = 1.0
+phi = 0.0
+psi = 0.0
+c = 1.0
+[[support]]
+face = "bottom"
+[solve]
+method = "newton"
+[stop]
+residual = 1e-10
+)";
+  const Summary plane = run(load_scene("plane.toml", R"(
+dim = 2
+[grid]
+min = [0.0, 0.0]
+max = [4.0, 2.0]
+cells = [8, 4]
+[body_force]
+value = [0.54, 0.0]
+[body]
+state = "plane-strain"
+points_per_cell = 4)" + rest,
+                                       {}));
+  const Summary space = run(load_scene("space.toml", R"(
+dim = 3
+[grid]
+min = [0.0, 0.0, 0.0]
+max = [0.5, 2.0, 4.0]
+cells = [1, 4, 8]
+[body_force]
+value = [0.0, 0.0, 0.54]
+[[support]]
+face = "left"
+kind = "roller"
+[[support]]
+face = "right"
+kind = "roller"
+[body]
+points_per_cell = 8)" + rest,
+                                       {}));
+  CHECK(plane.status == RunStatus::equilibrium);
+  CHECK(space.status == RunStatus::equilibrium);
+  REQUIRE(plane.unbalanced_plastic_work);
+  REQUIRE(space.unbalanced_plastic_work);
+  CHECK(*plane.unbalanced_plastic_work > 0.005);
+  CHECK(*space.unbalanced_plastic_work == Approx(*plane.unbalanced_plastic_work).epsilon(1e-6));
+}
+
 TEST_CASE("a body that does not yield has no share of plastic strain, however it swings") {
   const Summary elastic = run(scenes::load("column", {"damping.c=1", "stop.steps=2000"}));
   CHECK_FALSE(elastic.plastic_overshoot);

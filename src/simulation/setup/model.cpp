@@ -72,14 +72,14 @@ void begin_motion(SetUpState& set_up) {
 }
 
 // V and its ω₁; empty if K has no lowest eigenvalue.
-std::optional<VolumeNorm> volume_norm(Problem problem, const LagrangianPhase& phase, ConstVec u) {
+std::optional<VolumeNorm> volume_norm(Problem problem, const LagrangianPhase& phase, ConstVec u, const Ranks* ranks) {
   for (auto& [name, material] : problem.materials) {
     material.parameters["rho"] = 1;
     material.by_place.erase("rho");
   }
   problem.mass.scaling = MassScaling::uniform;
   problem.mass.factor = 1;
-  VolumeNorm norm{.V = make_phase(problem)->mass()};
+  VolumeNorm norm{.V = make_phase(problem, {.ranks = ranks})->mass()};
   const FrequencyEstimate lowest = lowest_frequency(phase.tangents().matrix(Tangent::elastic, 0, u), norm.V);
   if (!lowest.converged) return std::nullopt;
   norm.omega_1 = lowest.omega;
@@ -102,7 +102,8 @@ void choose_norm_of_errors(SetUpState& set_up) {
   }
   if (model.omega_1 && !plan.multigrid && wants_equilibrium && !plan.moves_on) {
     model.volume_norm = parts.shared("norm", model.mass, [&] {
-      return plan.estimates.mass_measures_volume ? std::nullopt : volume_norm(problem, *model.phase, model.u);
+      return plan.estimates.mass_measures_volume ? std::nullopt
+                                                 : volume_norm(problem, *model.phase, model.u, set_up.begin.ranks);
     });
   }
   if (wants_equilibrium && problem.stop.time == 0 && LoadSchedule(problem, *model.phase, 0).is_open()) {

@@ -41,12 +41,12 @@ double share_below_zero(double before, double after) {
   return std::min(before, after) / (std::min(before, after) - std::max(before, after));
 }
 
-// √J₂ of σ_xx, σ_yy, σ_zz and σ_xy; the components that a line does not have are 0.
+// √J₂ of a stress; components that it does not have are 0.
 double root_J2(ConstVec stress) {
-  std::array<double, 4> s{};
-  std::ranges::copy(stress, s.begin());
+  std::array<double, 6> s{};  // in space all of them
+  std::copy_n(stress.begin(), std::min(stress.size(), s.size()), s.begin());
   const double p = (s[0] + s[1] + s[2]) / 3, x = s[0] - p, y = s[1] - p, z = s[2] - p;
-  return std::sqrt(0.5 * (x * x + y * y + z * z) + s[3] * s[3]);
+  return std::sqrt(0.5 * (x * x + y * y + z * z) + s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
 }
 
 // A note on the overshoot; empty: there is nothing to say.

@@ -40,7 +40,7 @@ class AxisOfSymmetry {
   /// Prescribes u_r of the functions that do not vanish on the axis, near material that touched it at first, which
   /// still does, as nothing comes between. reached: as in BoundaryCondition::hold().
   void hold(const GridFunctions<dim>& functions, const MaterialPoints<dim>& points, const PointFunctions<dim>& weights,
-            const std::vector<char>& reached, HeldUnknowns& held) const {
+            const std::vector<char>& reached, const Ranks* ranks, HeldUnknowns& held) const {
     if (!acts()) return;
     std::vector<char> at_axis(reached.size(), 0);
     for (std::size_t k = 0; k < points.cells(); ++k) {
@@ -48,6 +48,7 @@ class AxisOfSymmetry {
       for (int a = 0; a < weights.functions_of_cell(); ++a)
         at_axis[static_cast<std::size_t>(weights.function(k, a))] = 1;
     }
+    unite(ranks, std::span(at_axis));
     for (const int function : functions.on_face(/*axis=*/0, /*upper=*/false)) {
       const auto f = static_cast<std::size_t>(function);
       if (at_axis[f] && reached[f] && !held.is_prescribed(dim * function))

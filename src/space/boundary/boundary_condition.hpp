@@ -87,6 +87,8 @@ class HeldUnknowns {
   std::vector<double> from_;
 };
 
+class CornerSum;  // corner_sum.hpp
+
 /// The parts of a phase that its boundary conditions use.
 template <int Dim>
 struct PhaseParts {
@@ -94,6 +96,7 @@ struct PhaseParts {
   const GridFunctions<Dim>& functions;
   const MaterialPoints<Dim>& points;
   const PointFunctions<Dim>& weights;
+  const CornerSum& corner_sum;
   const HeldUnknowns& held;
   const DegreesOfFreedom& dofs;
   const std::vector<double>& node_mass;  // m_i, (functions) [kg]

@@ -11,7 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "parallel/of_all.hpp"
 #include "space/boundary/boundary_condition.hpp"
+#include "space/kernels/corner_sum.hpp"
 #include "space/points/nearest_point.hpp"
 
 namespace stillpoint {
@@ -227,9 +229,54 @@ std::vector<PointInCell> carriers_of(Loads& loads, const PositionOf& at_of, cons
   return carriers;
 }
 
+/// As freeze_carried(), where ranks share the points: the rank of the point that carries a position sets its weights,
+/// and tells the others.
+template <int Dim, class Loads, class PositionOf>
+void freeze_by_ranks(Loads& loads, const PositionOf& at_of, const PhaseParts<Dim>& phase, const Ranks& ranks) {
+  using Carried = CarriedPoint<Dim>;
+  const NearestPoint<Dim> nearest(phase.points, phase.grid);
+  std::vector<PointInCell> carriers;
+  std::vector<Nearness> near;
+  for (auto& load : loads) {
+    const Carried& at = at_of(load);
+    carriers.push_back(phase.points.size() > 0 ? nearest.to(at.x, at.field) : PointInCell{});
+    near.push_back(nearest.nearness(at.x, carriers.back(), at.field));
+  }
+  const std::size_t count = near.size();
+  const std::vector<Nearness> of_ranks = joined_lists(&ranks, std::move(near));
+  std::vector<std::vector<std::size_t>> loads_of(static_cast<std::size_t>(ranks.count()));
+  for (std::size_t l = 0; l < count; ++l) {
+    std::size_t first = 0;
+    for (std::size_t rank = 1; rank < loads_of.size(); ++rank)
+      if (of_ranks[count * rank + l].key() < of_ranks[count * first + l].key()) first = rank;
+    loads_of[first].push_back(l);
+  }
+  std::vector<Point<Dim>> positions;
+  std::vector<typename Carried::Entry> entries;
+  for (const std::size_t l : loads_of[static_cast<std::size_t>(ranks.rank())]) {
+    Carried& at = at_of(loads[l]);
+    at.freeze(carriers[l], phase);
+    positions.push_back(at.x);
+    entries.insert(entries.end(), at.entries.begin(), at.entries.end());
+  }
+  positions = joined_lists(&ranks, std::move(positions));
+  entries = joined_lists(&ranks, std::move(entries));
+  const std::size_t per_load = count == 0 ? 0 : entries.size() / count;
+  std::size_t next = 0;
+  for (const std::vector<std::size_t>& of_rank : loads_of) {
+    for (const std::size_t l : of_rank) {
+      Carried& at = at_of(loads[l]);
+      at.x = positions[next];
+      const auto first = entries.begin() + static_cast<std::ptrdiff_t>(per_load * next++);
+      at.entries.assign(first, first + static_cast<std::ptrdiff_t>(per_load));
+    }
+  }
+}
+
 /// Sets the weights of the positions at_of(load) for the phase that begins, by the material points that carry them.
 template <int Dim, class Loads, class PositionOf>
 void freeze_carried(Loads& loads, const PositionOf& at_of, bool is_first, const PhaseParts<Dim>& phase) {
+  if (const Ranks* ranks = phase.corner_sum.ranks()) return freeze_by_ranks(loads, at_of, phase, *ranks);
   if (phase.functions.window() == 1) {
     const NearestPoint<Dim> nearest(phase.points, phase.grid);
     for (auto& load : loads) at_of(load).freeze(nearest.to(at_of(load).x, at_of(load).field), phase);

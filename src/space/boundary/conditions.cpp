@@ -42,11 +42,12 @@ Conditions<K>::~Conditions() = default;
 // Supports come first, so that reactions on the axis which they take count as theirs.
 template <Kinematics K>
 HeldUnknowns Conditions<K>::hold(double t, const GridFunctions<dim>& functions, const MaterialPoints<dim>& points,
-                                 const PointFunctions<dim>& weights, const std::vector<char>& reached) {
-  const FaceGaps<dim> gaps(functions, points, weights, depths_);
+                                 const PointFunctions<dim>& weights, const std::vector<char>& reached,
+                                 const Ranks* ranks) {
+  const FaceGaps<dim> gaps(functions, points, weights, depths_, ranks);
   HeldUnknowns held(dim * reached.size(), t);
   for (const auto& condition : all_) condition->hold(functions, reached, gaps, held);
-  axis_.hold(functions, points, weights, reached, held);
+  axis_.hold(functions, points, weights, reached, ranks, held);
   return held;
 }
 

@@ -43,7 +43,7 @@ class Conditions {
 
   // --- a phase begins, in this order ---------------------------------------------------------------
   HeldUnknowns hold(double t, const GridFunctions<dim>& functions, const MaterialPoints<dim>& points,
-                    const PointFunctions<dim>& weights, const std::vector<char>& reached);
+                    const PointFunctions<dim>& weights, const std::vector<char>& reached, const Ranks* ranks);
   /// F += the forces that depend on neither t nor u, (n). Throws SceneError, see WeakSupports and LoadControl.
   void begin_phase(const Parts& phase, double t, const StiffnessBound& stiffness_bound, Vec F);
   /// Changes initial velocities of the phase that would go through a wall; v: (n).

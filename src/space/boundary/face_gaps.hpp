@@ -17,6 +17,7 @@
 #include <limits>
 #include <vector>
 
+#include "parallel/of_all.hpp"
 #include "space/kernels/point_functions.hpp"
 #include "space/points/material_points.hpp"
 #include "space/points/point_domains.hpp"
@@ -36,10 +37,15 @@ class FaceGaps {
  public:
   static constexpr double nothing = std::numeric_limits<double>::infinity();
 
-  /// All arguments belong to the phase that begins, and must outlive this object.
+  /// All arguments belong to the phase that begins, and must outlive this object; ranks: that share the points.
   FaceGaps(const GridFunctions<Dim>& functions, const MaterialPoints<Dim>& points, const PointFunctions<Dim>& weights,
-           SurfaceDepths<Dim>& depths)
-      : window_(functions.window()), grid_(functions.grid()), points_(points), weights_(weights), depths_(depths) {}
+           SurfaceDepths<Dim>& depths, const Ranks* ranks)
+      : window_(functions.window()),
+        grid_(functions.grid()),
+        points_(points),
+        weights_(weights),
+        depths_(depths),
+        ranks_(ranks) {}
 
   /// The gap of each of these functions of a face, in ascending order [m]; `nothing` if no material reaches the
   /// function, 0 where the gap is not known.
@@ -68,6 +74,7 @@ class FaceGaps {
         }
       }
     }
+    if (ranks_) ranks_->smallest(std::span(gaps));
     return gaps;
   }
   /// The least gap of the initial bodies [m], which also counts contact with a face between two points.
@@ -104,6 +111,7 @@ class FaceGaps {
   const MaterialPoints<Dim>& points_;
   const PointFunctions<Dim>& weights_;
   SurfaceDepths<Dim>& depths_;
+  const Ranks* ranks_;
 };
 
 }  // namespace stillpoint

@@ -1,40 +1,61 @@
 // Loads by a force per mass at the material points: F_i = Σ_p N_ip m_p b_p.
 #pragma once
 
+#include <vector>
+
 #include "space/boundary/boundary_condition.hpp"
+#include "space/kernels/corner_sum.hpp"
 
 namespace stillpoint {
 
-/// F += the load on the free degrees of freedom, (n); b(p, i): component i at point p [m/s²].
+/// The load on each function of the grid, (functions × Dim) [N]; b(p, i): component i at point p [m/s²].
+template <int Dim, class Force>
+std::vector<double> load_on_functions(const PhaseParts<Dim>& phase, const Force& b) {
+  const auto& points = phase.points;
+  const auto per_cell = static_cast<std::size_t>(phase.weights.functions_of_cell());
+  std::vector<double> of_corners(Dim * phase.corner_sum.corners() + CornerSum::slack);
+  for (std::size_t k = 0; k < points.cells(); ++k) {
+    double* const of_cell = of_corners.data() + Dim * per_cell * k;
+    typename PointFunctions<Dim>::Numbers N;
+    for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
+      phase.weights.values(k, p, N);
+      for (std::size_t i = 0; i < Dim; ++i) {
+        const double force = points.mass[p] * b(p, static_cast<int>(i));
+        for (std::size_t a = 0; a < per_cell; ++a) of_cell[Dim * a + i] += N[a] * force;
+      }
+    }
+  }
+  std::vector<double> load(Dim * phase.corner_sum.functions());
+  phase.corner_sum.for_functions(of_corners.data(), Dim, [&](std::size_t f) {
+    const auto sum = phase.corner_sum.template sum<Dim>(f, of_corners.data());
+    for (int i = 0; i < Dim; ++i) load[Dim * f + static_cast<std::size_t>(i)] = sum[i];
+  });
+  phase.corner_sum.complete(load.data(), Dim);
+  return load;
+}
+
+/// F += the load on the free degrees of freedom, (n).
 template <int Dim, class Force>
 void add_point_loads(const PhaseParts<Dim>& phase, const Force& b, Vec F) {
-  const auto& points = phase.points;
-  for (std::size_t k = 0; k < points.cells(); ++k) {
-    for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-      phase.weights.add_at_functions(
-          k, p, [&](int i) { return points.mass[p] * b(p, i); }, phase.dofs, F);
-    }
+  const std::vector<double> load = load_on_functions(phase, b);
+  for (std::size_t unknown = 0; unknown < load.size(); ++unknown) {
+    if (load[unknown] == 0) continue;
+    phase.dofs.for_sources(static_cast<int>(unknown), [&](int, int dof, double share) {
+      if (phase.dofs.is_free(dof)) F[static_cast<std::size_t>(dof)] += share * load[unknown];
+    });
   }
 }
 
 /// F_s += the load on the prescribed degrees of freedom, (prescribed).
 template <int Dim, class Force>
 void add_point_loads_on_supports(const PhaseParts<Dim>& phase, const Force& b, Vec F_s) {
-  const auto& points = phase.points;
+  const std::vector<double> load = load_on_functions(phase, b);
   const std::size_t n = phase.dofs.size();
-  for (std::size_t k = 0; k < points.cells(); ++k) {
-    for (int a = 0; a < phase.weights.functions_of_cell(); ++a) {
-      for (int i = 0; i < Dim; ++i) {
-        phase.dofs.for_sources(Dim * phase.weights.function(k, a) + i, [&](int, int dof, double share) {
-          if (phase.dofs.is_free(dof)) return;
-          typename PointFunctions<Dim>::Numbers N;
-          for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-            phase.weights.values(k, p, N);
-            F_s[static_cast<std::size_t>(dof) - n] += share * points.mass[p] * b(p, i) * N[a];
-          }
-        });
-      }
-    }
+  for (std::size_t unknown = 0; unknown < load.size(); ++unknown) {
+    if (load[unknown] == 0) continue;
+    phase.dofs.for_sources(static_cast<int>(unknown), [&](int, int dof, double share) {
+      if (!phase.dofs.is_free(dof)) F_s[static_cast<std::size_t>(dof) - n] += share * load[unknown];
+    });
   }
 }
 

@@ -47,8 +47,7 @@ class RigidFaces {
       const std::size_t begin = points.begin(k);
       if (face.finder->distance(position(begin, x), face.placement) > apart * diagonal) continue;
       for (std::size_t p = begin; p < points.end(k); ++p) {
-        const auto body = std::ranges::upper_bound(first_number_, points.number[p]) - first_number_.begin() - 1;
-        if (!face.finder->touches(static_cast<std::size_t>(body))) continue;
+        if (!face.finder->touches(body_of(first_number_, points.number[p]))) continue;
         const auto at = face.finder->nearest(Finder::position_of(position(p, x)), face.placement);
         const double depth = -at.distance;
         if (!(0 < depth && depth < most * side)) continue;

@@ -60,11 +60,21 @@ Intrusion RigidContact<K>::deepest_point(std::size_t r, const RigidPlacement<N>&
       }
       const double cells = -finder.distance(x, placement) / side;
       if (!(cells > deepest.cells)) continue;
-      const auto body = std::ranges::upper_bound(first_number_, phase.points.number[p]) - first_number_.begin() - 1;
-      const bool is_looked_at = u || !bodies_[r].was_there(static_cast<std::size_t>(body));
-      if (is_looked_at && finder.touches(static_cast<std::size_t>(body)))
-        take_if_deeper(cells, static_cast<std::size_t>(body), x, deepest);
+      const std::size_t body = body_of(first_number_, phase.points.number[p]);
+      const bool is_looked_at = u || !bodies_[r].was_there(body);
+      if (is_looked_at && finder.touches(body)) take_if_deeper(cells, body, x, deepest);
     }
+  }
+  if (const Ranks* ranks = phase.corner_sum.ranks()) {
+    struct OfRank {
+      double cells;
+      std::size_t other;
+      Point<dim> x;
+    };
+    OfRank mine{deepest.cells, deepest.other, {}};
+    std::ranges::copy(deepest.at, mine.x.begin());
+    for (const OfRank& of : of_all(ranks, mine))
+      if (of.cells > deepest.cells) take_if_deeper(of.cells, of.other, of.x, deepest);
   }
   return deepest;
 }

@@ -11,6 +11,7 @@
 #include "base/stop_request.hpp"
 #include "space/grid/degrees_of_freedom.hpp"
 #include "space/grid/matrix_entries.hpp"
+#include "space/kernels/corner_sum.hpp"
 #include "space/kernels/point_weights.hpp"
 
 namespace stillpoint {
@@ -42,19 +43,25 @@ class NeighbourMatrix {
   /// Adds a cell's matrix. function(a): global number of the cell's local function a. Entries of 0 leave no trace.
   template <class Function>
   void add(const CellMatrix<Dim, per_cell>& matrix, const Function& function) {
-    for (int b = 0; b < per_cell; ++b) {
-      double* column = entry_.data() + blocks_of(function(b));
-      for (int a = 0; a < per_cell; ++a) {
-        int neighbour = 0;
-        for (int d = Dim - 1; d >= 0; --d) neighbour = neighbour * span + along(a, d) - along(b, d) + reach;
-        for (int j = 0; j < Dim; ++j) {
-          for (int i = 0; i < Dim; ++i) {
-            const double value = matrix[Dim * a + i][Dim * b + j];
-            if (value != 0) column[(j * neighbours + neighbour) * Dim + i] += value;
-          }
+    for (int b = 0; b < per_cell; ++b) add_columns(matrix, b, function(b));
+  }
+  /// Adds those columns alone that belong to the cell's local function b, which has this global number.
+  void add_columns(const CellMatrix<Dim, per_cell>& matrix, int b, int function) {
+    double* column = entry_.data() + blocks_of(function);
+    for (int a = 0; a < per_cell; ++a) {
+      int neighbour = 0;
+      for (int d = Dim - 1; d >= 0; --d) neighbour = neighbour * span + along(a, d) - along(b, d) + reach;
+      for (int j = 0; j < Dim; ++j) {
+        for (int i = 0; i < Dim; ++i) {
+          const double value = matrix[Dim * a + i][Dim * b + j];
+          if (value != 0) column[(j * neighbours + neighbour) * Dim + i] += value;
         }
       }
     }
+  }
+  /// Completes the columns of functions that other ranks have summed.
+  void complete(const CornerSum& corner_sum) {
+    corner_sum.complete(entry_.data(), static_cast<std::size_t>(neighbours * Dim * Dim));
   }
 
   /// The matrix over the free unknowns, with extended functions expressed by their sources.
@@ -133,19 +140,72 @@ class NeighbourMatrix {
 template <AxisBasis B, Kinematics K>
 using AddCell = std::function<void(std::size_t k, CellMatrix<dimensions(K), PointWeights<B, K>::per_cell>& matrix)>;
 
+/// The sum of cell matrices where ranks share the cells. A column belongs to the rank of its function; those to which
+/// cells of several ranks add wait until all are there, and then are added in the order of the cells.
+template <AxisBasis B, int Dim>
+class SumOfSharedCells {
+  static constexpr int per_cell = power(B::per_cell, Dim);
+
+ public:
+  /// Both arguments must outlive this object. Does nothing unless ranks share the cells.
+  SumOfSharedCells(const CornerSum& corner_sum, NeighbourMatrix<B, Dim>& sum) : corner_sum_(corner_sum), sum_(sum) {
+    if (const Ranks* ranks = corner_sum.ranks()) to_.resize(static_cast<std::size_t>(ranks->count()));
+  }
+  template <class Function>
+  void add(const CellMatrix<Dim, per_cell>& matrix, const CellPlace& of, const Function& function) {
+    const SharedCorners& shared = *corner_sum_.shared();
+    for (int b = 0; b < per_cell; ++b) {
+      const int f = function(b);
+      if (shared.is_of_others_too(f)) {
+        to_[static_cast<std::size_t>(shared.owner(f))].push_back({f, b, of, matrix});
+      } else {
+        sum_.add_columns(matrix, b, f);
+      }
+    }
+  }
+  void complete() {
+    if (!corner_sum_.shared()) return;
+    std::vector<Bytes> bytes;
+    for (const std::vector<Columns>& columns : to_) bytes.push_back(bytes_of(columns));
+    std::vector<Columns> shared;
+    for (const Bytes& from : corner_sum_.ranks()->deliver(bytes)) append_from(from, shared);
+    std::ranges::stable_sort(shared, {}, &Columns::of);
+    for (const Columns& columns : shared) sum_.add_columns(columns.matrix, columns.local, columns.function);
+    sum_.complete(corner_sum_);
+  }
+
+ private:
+  // The columns of a function in a cell's matrix.
+  struct Columns {
+    int function = 0, local = 0;
+    CellPlace of;
+    CellMatrix<Dim, per_cell> matrix;
+  };
+
+  const CornerSum& corner_sum_;
+  NeighbourMatrix<B, Dim>& sum_;
+  std::vector<std::vector<Columns>> to_;
+};
+
 /// The sum over the cells of the matrices that add_cell(cell k, cell matrix) makes.
 template <AxisBasis B, Kinematics K>
 SplitMatrix assemble_whole_cells(const Grid<dimensions(K)>& grid, const MaterialPoints<dimensions(K)>& points,
-                                 const PointWeights<B, K>& weights, const DegreesOfFreedom& dofs,
-                                 const AddCell<B, K>& add_cell) {
+                                 const PointWeights<B, K>& weights, const CornerSum& corner_sum,
+                                 const DegreesOfFreedom& dofs, const AddCell<B, K>& add_cell) {
   constexpr int dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
   NeighbourMatrix<B, dim> sum(grid, dofs.number.size() / dim);
+  SumOfSharedCells<B, dim> shared(corner_sum, sum);
   for (std::size_t k = 0; k < points.cells(); ++k) {
     heed_stop_request();
     CellMatrix<dim, per_cell> matrix{};
     add_cell(k, matrix);
-    sum.add(matrix, [&](int a) { return weights.function(k, a); });
+    if (corner_sum.shared()) {
+      shared.add(matrix, place_of_cell(points, k), [&](int a) { return weights.function(k, a); });
+    } else {
+      sum.add(matrix, [&](int a) { return weights.function(k, a); });
+    }
   }
+  shared.complete();
   if (!dofs.extended.empty()) return sum.extended(dofs);
   return {sum.columns(dofs.free, dofs), sum.columns(dofs.prescribed, dofs)};
 }
@@ -153,9 +213,11 @@ SplitMatrix assemble_whole_cells(const Grid<dimensions(K)>& grid, const Material
 /// The sum over the cells of the matrices that add_point(cell k, point p, cell matrix) makes for the cell's points.
 template <AxisBasis B, Kinematics K, class AddPoint>
 SplitMatrix assemble_cells(const Grid<dimensions(K)>& grid, const MaterialPoints<dimensions(K)>& points,
-                           const PointWeights<B, K>& weights, const DegreesOfFreedom& dofs, const AddPoint& add_point) {
+                           const PointWeights<B, K>& weights, const CornerSum& corner_sum, const DegreesOfFreedom& dofs,
+                           const AddPoint& add_point) {
   return assemble_whole_cells<B, K>(
-      grid, points, weights, dofs, [&](std::size_t k, CellMatrix<dimensions(K), PointWeights<B, K>::per_cell>& matrix) {
+      grid, points, weights, corner_sum, dofs,
+      [&](std::size_t k, CellMatrix<dimensions(K), PointWeights<B, K>::per_cell>& matrix) {
         for (std::size_t p = points.begin(k); p < points.end(k); ++p) add_point(k, p, matrix);
       });
 }
@@ -163,7 +225,8 @@ SplitMatrix assemble_cells(const Grid<dimensions(K)>& grid, const MaterialPoints
 /// The consistent mass M_ij = Σ_p m_p N_ip N_jp for each component.
 template <AxisBasis B, Kinematics K>
 SplitMatrix consistent_mass(const Grid<dimensions(K)>& grid, const MaterialPoints<dimensions(K)>& points,
-                            const PointWeights<B, K>& weights, const DegreesOfFreedom& dofs) {
+                            const PointWeights<B, K>& weights, const CornerSum& corner_sum,
+                            const DegreesOfFreedom& dofs) {
   constexpr int dim = dimensions(K), per_cell = PointWeights<B, K>::per_cell;
   const auto add_point = [&](std::size_t k, std::size_t p, CellMatrix<dim, per_cell>& matrix) {
     const auto N = weights.N(k, p);
@@ -174,7 +237,7 @@ SplitMatrix consistent_mass(const Grid<dimensions(K)>& grid, const MaterialPoint
       }
     }
   };
-  return assemble_cells<B, K>(grid, points, weights, dofs, add_point);
+  return assemble_cells<B, K>(grid, points, weights, corner_sum, dofs, add_point);
 }
 
 }  // namespace stillpoint

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/parallel_loop.hpp"
+#include "parallel/of_all.hpp"
 #include "scene/dimensions.hpp"
 #include "space/points/material_points.hpp"
 
@@ -23,13 +24,15 @@ class ConservationCheck {
     std::array<double, Dim> sum{};  // Σ_p m_p v_p [kg m/s]
     double scale = 0;               // Σ_p m_p |v_p|
   };
-  static Momentum of_points(const MaterialPoints<Dim>& points) {
+  explicit ConservationCheck(const Ranks* ranks) : ranks_(ranks) {}
+
+  Momentum of_points(const MaterialPoints<Dim>& points) const {
     Momentum momentum;
     const auto& m = points.mass;
     for (int i = 0; i < Dim; ++i) {
       const auto& v = points.v[i];
-      momentum.sum[i] = sum_over(points.size(), [&](std::size_t p) { return m[p] * v[p]; });
-      momentum.scale += sum_over(points.size(), [&](std::size_t p) { return m[p] * std::abs(v[p]); });
+      momentum.sum[i] = over_points(points, [&](std::size_t p) { return m[p] * v[p]; });
+      momentum.scale += over_points(points, [&](std::size_t p) { return m[p] * std::abs(v[p]); });
     }
     return momentum;
   }
@@ -92,13 +95,13 @@ class ConservationCheck {
   };
   // The angular momentum Σ_p m_p (x_p × v_p + B_p,yx − B_p,xy) (about z), and its scale Σ_p m_p |x_p − x_c| |v_p| about
   // the centre of mass x_c.
-  static std::pair<Turn, double> angular_momentum(const MaterialPoints<Dim>& points) {
+  std::pair<Turn, double> angular_momentum(const MaterialPoints<Dim>& points) const {
     if constexpr (Dim == 1) {
       return {{0}, 0};
     } else {
       const auto mean = [&](const std::vector<double>& x) {
-        return sum_over(points.size(), [&](std::size_t p) { return points.mass[p] * x[p]; }) /
-               sum_over(points.size(), [&](std::size_t p) { return points.mass[p]; });
+        return over_points(points, [&](std::size_t p) { return points.mass[p] * x[p]; }) /
+               over_points(points, [&](std::size_t p) { return points.mass[p]; });
       };
       Point<Dim> centre;
       for (std::size_t d = 0; d < Dim; ++d) centre[d] = mean(points.x[d]);
@@ -107,12 +110,12 @@ class ConservationCheck {
       Turn turn;
       for (std::size_t k = 0; k < turn.size(); ++k) {
         const std::size_t i = dimension_info(Dim).turns[k].from, j = dimension_info(Dim).turns[k].to;
-        turn[k] = sum_over(points.size(), [&](std::size_t p) {
+        turn[k] = over_points(points, [&](std::size_t p) {
           const double spin = affine ? points.B_apic[Dim * j + i][p] - points.B_apic[Dim * i + j][p] : 0;
           return points.mass[p] * (points.x[i][p] * v[j][p] - points.x[j][p] * v[i][p] + spin);
         });
       }
-      const double scale = sum_over(points.size(), [&](std::size_t p) {
+      const double scale = over_points(points, [&](std::size_t p) {
         double distance = 0, speed = 0;
         for (std::size_t d = 0; d < Dim; ++d) {
           distance = std::hypot(distance, points.x[d][p] - centre[d]);
@@ -124,6 +127,13 @@ class ConservationCheck {
     }
   }
 
+  // Σ term(p) over the points of all ranks.
+  template <class Term>
+  double over_points(const MaterialPoints<Dim>& points, const Term& term) const {
+    return sum_over_ranks(ranks_, points.size(), term);
+  }
+
+  const Ranks* ranks_;
   std::optional<Start> start_;
   std::optional<double> angular_momentum_;
   double mass_ = 0, momentum_ = 0;  // the largest relative errors so far

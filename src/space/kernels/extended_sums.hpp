@@ -1,6 +1,7 @@
 // Mass and stiffness bound of the functions N_k + Σ_e W_ek N_e that extended functions follow, see ExtendedFunctions.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -44,6 +45,12 @@ std::vector<double> stiffness_bound(const MaterialPoints<dimensions(K)>& points,
   }
   std::vector<double> G =
       stiffness_bound(points, weights, corner_sum, wave_modulus, [&](std::size_t k) { return !has_extended[k]; });
+  struct Share {
+    CellPlace of;
+    int function;
+    double bound;
+  };
+  std::vector<Share> shares;
   for (std::size_t k = 0; k < points.cells(); ++k) {
     if (!has_extended[k]) continue;
     const double A = wave_modulus[static_cast<std::size_t>(points.material_of_cell(k))];
@@ -70,9 +77,12 @@ std::vector<double> stiffness_bound(const MaterialPoints<dimensions(K)>& points,
       double together = 0;
       for (const auto& [function, gradient] : gradients) together += length(gradient);
       for (const auto& [function, gradient] : gradients)
-        G[static_cast<std::size_t>(function)] += points.volume[p] * A * length(gradient) * together;
+        shares.push_back({place_of_cell(points, k), function, points.volume[p] * A * length(gradient) * together});
     }
   }
+  shares = joined_lists(corner_sum.ranks(), std::move(shares));
+  std::ranges::stable_sort(shares, {}, &Share::of);
+  for (const Share& share : shares) G[static_cast<std::size_t>(share.function)] += share.bound;
   return G;
 }
 

@@ -37,9 +37,10 @@ class NodalForce {
  public:
   /// The arrays that an evaluation writes to, those of a call at a time.
   struct Work {
-    std::vector<double> corner;       // (cells × per_cell × dim), and slack [N]
-    long corners_at_rest_of = 0;      // the division into blocks whose cells at rest have their forces in `corner`
-    std::vector<double> at_extended;  // forces at the extended unknowns [N]
+    std::vector<double> corner;        // (cells × per_cell × dim), and slack [N]
+    long corners_at_rest_of = 0;       // the division into blocks whose cells at rest have their forces in `corner`
+    std::vector<double> at_extended;   // forces at the extended unknowns [N]
+    std::vector<double> at_functions;  // sums at all functions, (functions × dim) [N], where ranks share them
   };
 
   /// Prepares for the phase of these points, weights and corners, which must outlive it or the next rebuild().
@@ -86,10 +87,10 @@ class NodalForce {
       });
       if (bad != 0) is_answered = false;
     });
-    sum_corners<Directed>(dofs, R, reactions, work, /*all=*/blocks == blocks_.size());
+    const bool is_good = sum_corners<Directed>(dofs, R, reactions, work, is_answered, /*all=*/blocks == blocks_.size());
     if (at_rest) work.corners_at_rest_of = Directed ? 0 : divisions_;
     give_to_sources<Directed>(dofs, R, reactions, work);
-    return is_answered;
+    return is_good;
   }
 
   /// The same with one answer for all cells.
@@ -114,9 +115,9 @@ class NodalForce {
         bad += of_cells(together * part, std::min(together * (part + 1), cells), work.corner.data());
       if (bad != 0) is_answered = false;
     });
-    sum_corners<Directed>(dofs, R, reactions, work);
+    const bool is_good = sum_corners<Directed>(dofs, R, reactions, work, is_answered);
     give_to_sources<Directed>(dofs, R, reactions, work);
-    return is_answered;
+    return is_good;
   }
 
   /// Calls visit(material number, block) with block.H filled (and dH, and direction, as in evaluate()), which it may
@@ -146,40 +147,65 @@ class NodalForce {
     }
   }
   void prepare(const DegreesOfFreedom& dofs, Work& work) const {
-    work.corner.resize(dim * per_cell * points_->cells() + CornerSum::slack);
+    work.corner.resize(dim * corner_sum_->corners() + CornerSum::slack);
     work.at_extended.assign(dofs.extended.size(), 0.0);
   }
-  // Sums the corners' forces into R and reactions. all: those of functions whose cells are all at rest as well.
+  // Sums the corners' forces into R and reactions. all: those of functions whose cells are all at rest as well. Returns
+  // whether all answers were good, those of other ranks too.
   template <bool Directed>
-  void sum_corners(const DegreesOfFreedom& dofs, Vec R, Vec reactions, Work& work, bool all = true) const {
+  bool sum_corners(const DegreesOfFreedom& dofs, Vec R, Vec reactions, Work& work, bool is_answered,
+                   bool all = true) const {
     const double* corners = work.corner.data();
     const int* number = dofs.number.data();
     const int n = static_cast<int>(R.size()), first_extended = n + static_cast<int>(dofs.prescribed.size());
     const std::size_t count = all ? corner_sum_->functions() : moving_functions_.size();
-    const auto sum = [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) {
-        const std::size_t f = all ? k : moving_functions_[k];
-        if (!corner_sum_->reaches(f)) continue;
-        const auto total = corner_sum_->template sum<dim>(f, corners);
-        for (int i = 0; i < dim; ++i) {
-          const int dof = number[dim * f + i];
-          if (dof >= first_extended) {
-            work.at_extended[static_cast<std::size_t>(dof - first_extended)] = total[i];
-          } else if (dof >= n) {
-            if constexpr (!Directed) reactions[static_cast<std::size_t>(dof - n)] = total[i];
-          } else if (dof >= 0) {
-            R[static_cast<std::size_t>(dof)] = total[i];
-          }
+    const auto take = [&](std::size_t f, const auto& total) __attribute__((always_inline)) {
+      for (int i = 0; i < dim; ++i) {
+        const int dof = number[dim * f + i];
+        if (dof >= first_extended) {
+          work.at_extended[static_cast<std::size_t>(dof - first_extended)] = total[i];
+        } else if (dof >= n) {
+          if constexpr (!Directed) reactions[static_cast<std::size_t>(dof - n)] = total[i];
+        } else if (dof >= 0) {
+          R[static_cast<std::size_t>(dof)] = total[i];
         }
       }
     };
-    if (!all || points_->size() <= points_for_threads || n == 0) return in_threads(count, sum);
+    if (corner_sum_->shared()) return sum_shared_corners(work, is_answered, take);
+    const auto sum = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const std::size_t f = all ? k : moving_functions_[k];
+        if (corner_sum_->reaches(f)) take(f, corner_sum_->template sum<dim>(f, corners));
+      }
+    };
+    if (!all || points_->size() <= points_for_threads || n == 0) {
+      in_threads(count, sum);
+      return is_answered;
+    }
     // The functions of the unknowns that each thread has in other loops: these are in their order.
     const auto function_of = [&](std::size_t k) {
       return k == 0 ? 0 : k == R.size() ? count : static_cast<std::size_t>(dofs.free[k] / dim);
     };
     in_aligned_parts(R.size(), 1,
                      [&](std::size_t begin, std::size_t end) { sum(function_of(begin), function_of(end)); });
+    return is_answered;
+  }
+  // The same of functions that ranks share: each sums its own, and all take those of all.
+  template <class Take>
+  bool sum_shared_corners(Work& work, bool is_answered, const Take& take) const {
+    std::vector<double>& sums = work.at_functions;
+    sums.resize(dim * corner_sum_->functions());
+    corner_sum_->for_functions(work.corner.data(), dim, [&](std::size_t f) {
+      const auto total = corner_sum_->template sum<dim>(f, work.corner.data());
+      for (int i = 0; i < dim; ++i) sums[dim * f + i] = total[i];
+    });
+    const bool is_good = corner_sum_->complete(sums.data(), dim, is_answered);
+    const std::vector<int>& reached = corner_sum_->shared()->functions_of_all();
+    for_each_block(reached.size(), [&](std::size_t k) {
+      const auto f = static_cast<std::size_t>(reached[k]);
+      take(f, sums.data() + dim * f);
+    });
+    return is_good;
   }
   template <bool Directed>
   void give_to_sources(const DegreesOfFreedom& dofs, Vec R, Vec reactions, const Work& work) const {

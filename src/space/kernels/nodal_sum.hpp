@@ -1,4 +1,5 @@
-// Sums over material points at the grid's functions, as Σ_p m_p N_ip, the same bits for any number of threads.
+// Sums over material points at the grid's functions, as Σ_p m_p N_ip, the same bits for any number of threads and
+// ranks.
 #pragma once
 
 #include <algorithm>
@@ -22,17 +23,18 @@ template <int Components, AxisBasis B, Kinematics K, class AddCell>
 std::vector<double> nodal_sum(const MaterialPoints<dimensions(K)>& points, const PointWeights<B, K>&,
                               const CornerSum& corner_sum, const AddCell& add_cell, std::vector<double>& of_corners) {
   constexpr int per_cell = PointWeights<B, K>::per_cell;
-  of_corners.resize(std::max(of_corners.size(), Components * per_cell * points.cells() + CornerSum::slack));
+  of_corners.resize(std::max(of_corners.size(), Components * corner_sum.corners() + CornerSum::slack));
   for_each_block(points.cells(), [&](std::size_t k) {
     Corners<Components, per_cell> corners{};
     add_cell(k, corners);
     std::copy(corners.begin(), corners.end(), of_corners.begin() + static_cast<std::ptrdiff_t>(corners.size() * k));
   });
   std::vector<double> sums(Components * corner_sum.functions());
-  for_each_block(corner_sum.functions(), [&](std::size_t f) {
+  corner_sum.for_functions(of_corners.data(), Components, [&](std::size_t f) {
     const auto total = corner_sum.sum<Components>(f, of_corners.data());
     for (int i = 0; i < Components; ++i) sums[Components * f + i] = total[i];
   });
+  corner_sum.complete(sums.data(), Components);
   return sums;
 }
 template <int Components, AxisBasis B, Kinematics K, class AddCell>

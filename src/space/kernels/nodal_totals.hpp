@@ -47,15 +47,19 @@ class NodalTotals {
   /// Sums the corners at the functions.
   void sum(const CornerSum& corner_sum) {
     const std::size_t functions = corner_sum.functions();
-    mass_.resize(functions);
-    bound_.resize(functions);
-    momentum_.resize(dim * functions);
-    for_each_block(functions, [&](std::size_t f) {
+    mass_.assign(functions, 0);
+    bound_.assign(functions, 0);
+    momentum_.assign(dim * functions, 0);
+    of_corners_.resize(terms * corner_sum.corners() + CornerSum::slack);
+    corner_sum.for_functions(of_corners_.data(), terms, [&](std::size_t f) {
       const auto total = corner_sum.sum<terms>(f, of_corners_.data());
       mass_[f] = total[0];
       bound_[f] = total[1];
       for (int i = 0; i < dim; ++i) momentum_[dim * f + i] = total[2 + i];
     });
+    corner_sum.complete(mass_.data(), 1);
+    corner_sum.complete(bound_.data(), 1);
+    corner_sum.complete(momentum_.data(), dim);
     if (!moves_) of_corners_ = std::vector<double>();  // there is no other phase
   }
 

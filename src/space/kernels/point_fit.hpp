@@ -55,7 +55,8 @@ class PointFit {
       if (held[k]) z[k] = inverse[k] = 0;
     }
     std::vector<double> r = residual(z), p(z.size(), 0.0);
-    const double all_mass = sum_over(values_.mass.size(), [&](std::size_t q) { return values_.mass[q]; });
+    const double all_mass =
+        sum_over_ranks(corner_sum_.ranks(), values_.mass.size(), [&](std::size_t q) { return values_.mass[q]; });
     const double enough = options_.tolerance * options_.tolerance * all_mass;
     double before = 1;
     for (int k = 0; k < options_.iterations; ++k) {

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "space/grid/degrees_of_freedom.hpp"
 #include "space/grid/grid_functions.hpp"
 
 namespace stillpoint {
@@ -26,29 +25,16 @@ class PointFunctions {
   const std::array<int, Dim>& cell_at(std::size_t k) const { return at_[k]; }
   /// The same of all occupied cells.
   const std::vector<std::array<int, Dim>>& cells_at() const { return at_; }
-  /// Grid number of local function a in occupied cell k.
+  /// Grid number of local function a in occupied cell k: that of its first function, and on from it.
   int function(std::size_t k, int a) const { return first_[k] + offset_[a]; }
+  int first_function(std::size_t k) const { return first_[k]; }
+  int offset(int a) const { return offset_[a]; }
   int functions_of_cell() const { return functions_of_cell_; }
 
   /// Sets the values N_a of point p in occupied cell k; entries from functions_of_cell() on are left as they are.
   virtual void values(std::size_t k, std::size_t p, Numbers& N) const = 0;
   /// Sets the gradients of the functions at point p, ∂N_a/∂x_j at [functions_of_cell() j + a] [1/m].
   virtual void slopes(std::size_t k, std::size_t p, Slopes& dN) const = 0;
-
-  /// Adds a quantity of a point to its functions: F_i += N_ap value(i), at the free degrees of freedom; F: (n).
-  template <class Value>
-  void add_at_functions(std::size_t k, std::size_t p, const Value& value, const DegreesOfFreedom& dofs, Vec F) const {
-    Numbers N;
-    values(k, p, N);
-    for (int i = 0; i < Dim; ++i) {
-      const double of_component = value(i);
-      for (int a = 0; a < functions_of_cell_; ++a) {
-        dofs.for_sources(Dim * function(k, a) + i, [&](int, int dof, double share) {
-          if (dofs.is_free(dof)) F[static_cast<std::size_t>(dof)] += of_component * share * N[a];
-        });
-      }
-    }
-  }
 
  protected:
   explicit PointFunctions(int functions_of_cell) : functions_of_cell_(functions_of_cell) {}

@@ -41,8 +41,9 @@ class VelocityTransfer {
   using MotionAbout = typename Affine::MotionAbout;
 
  public:
-  /// damped: whether the scene damps its motion, so that conservation in a rotation does not matter.
-  VelocityTransfer(const PhaseSpec& spec, bool damped) : spec_(spec), damped_(damped) {}
+  /// damped: whether the scene damps its motion, so that conservation in a rotation does not matter. ranks: see Ranks.
+  VelocityTransfer(const PhaseSpec& spec, bool damped, const Ranks* ranks = nullptr)
+      : spec_(spec), damped_(damped), conservation_(ranks) {}
 
   /// Prepares B_p of apic's points for a phase: in the first one, where they have velocities v_p alone, from those.
   /// mass: m_i, (functions); momentum: Σ_p m_p N_ip v_p, (functions × dim).
@@ -71,21 +72,21 @@ class VelocityTransfer {
     std::vector<double> v =
         spec_.transfer == Transfer::apic ? affine_momentum(grid, points, weights, corner_sum) : momentum;
     if (spec_.transfer == Transfer::flip && !damped_ && B::partition_of_unity) {
-      make_velocity(points, corner_sum, mass, v);
+      make_velocity(points, weights, corner_sum, mass, v);
       v = momentum_about(grid, points, weights, corner_sum,
                          [&, mean = std::move(v)](const Centres& centre, std::size_t k, std::size_t p) {
                            return MotionAbout{Affine::velocity_gradient(weights, mean.data(), k, p),
                                               Affine::distances_weighed(weights.N(k, p), centre, points.position(p))};
                          });
     }
-    at_start_ = ConservationCheck<dim>::of_points(points);
+    at_start_ = conservation_.of_points(points);
     conservation_.compare_momentum(at_start_, mass.size(), [p = v.data()](std::size_t i) { return p[i]; });
-    make_velocity(points, corner_sum, mass, v);
+    make_velocity(points, weights, corner_sum, mass, v);
     return v;
   }
 
   /// Resumes a run in a phase that began with these points.
-  void resume(const Points& points) { at_start_ = ConservationCheck<dim>::of_points(points); }
+  void resume(const Points& points) { at_start_ = conservation_.of_points(points); }
 
   const ConservationCheck<dim>& conservation() const { return conservation_; }
   ConservationCheck<dim>& conservation() { return conservation_; }
@@ -132,7 +133,7 @@ class VelocityTransfer {
   void begin(const Grid<dim>& grid, Points& points, const Weights& weights, const CornerSum& corner_sum,
              const std::vector<double>& mass, const std::vector<double>& momentum) const {
     std::vector<double> v = momentum;
-    make_velocity(points, corner_sum, mass, v);
+    make_velocity(points, weights, corner_sum, mass, v);
     const std::vector<double> at_rest(v.size());
     for_each_block(points.cells(), [&](std::size_t k) {
       const Centres centre = Affine::centres(grid, points.cell[k]);
@@ -175,35 +176,40 @@ class VelocityTransfer {
 
   // Turns momenta m_i v_i into velocities v_i. A node with negligible mass takes the mean velocity of its cells'
   // points.
-  static void make_velocity(const Points& points, const CornerSum& corner_sum, const std::vector<double>& mass,
-                            std::vector<double>& v) {
+  static void make_velocity(const Points& points, const Weights& weights, const CornerSum& corner_sum,
+                            const std::vector<double>& mass, std::vector<double>& v) {
     constexpr double next_to_nothing = 1e-12;
     const double body = sum_over(mass.size(), [&](std::size_t f) { return mass[f]; });
+    // It may be light because its cells are, which are never heavier than the body.
+    const auto may_be_light = [&](std::size_t f) {
+      return !(mass[f] > next_to_nothing * body) && corner_sum.reaches(f);
+    };
+    std::vector<double> of_cells;  // Σ m_p v_p and Σ m_p, (functions × (dim + 1)), if some function is light
+    for (std::size_t f = 0; f < mass.size() && of_cells.empty(); ++f)
+      if (may_be_light(f)) of_cells = momentum_of_cells(points, weights, corner_sum);
     for_each_block(mass.size(), [&](std::size_t f) {
       double m = mass[f];
-      if (!(m > next_to_nothing * body)) {  // it may be light because its cells are, which are never heavier than the
-                                            // body
-        const auto of_cells = momentum_of_cells(points, corner_sum, f);
-        if (!(m > next_to_nothing * of_cells[dim])) {
-          m = of_cells[dim];
-          for (int i = 0; i < dim; ++i) v[dim * f + i] = of_cells[i];
+      if (may_be_light(f)) {
+        const double* of_function = of_cells.data() + (dim + 1) * f;
+        if (!(m > next_to_nothing * of_function[dim])) {
+          m = of_function[dim];
+          for (int i = 0; i < dim; ++i) v[dim * f + i] = of_function[i];
         }
       }
       for (int i = 0; i < dim; ++i) v[dim * f + i] = m > 0 ? v[dim * f + i] / m : 0;
     });
   }
-  // The sums Σ m_p v_p and Σ m_p over all points in the cells that a function acts in.
-  static std::array<double, dim + 1> momentum_of_cells(const Points& points, const CornerSum& corner_sum,
-                                                       std::size_t function) {
-    std::array<double, dim + 1> of_cells{};
-    corner_sum.for_corners(function, [&](int corner) {
-      const std::size_t k = static_cast<std::size_t>(corner) / per_cell;
+  // The sums Σ m_p v_p and Σ m_p over all points in the cells that each function acts in.
+  static std::vector<double> momentum_of_cells(const Points& points, const Weights& weights,
+                                               const CornerSum& corner_sum) {
+    return nodal_sum<dim + 1>(points, weights, corner_sum, [&](std::size_t k, Corners<dim + 1, per_cell>& corner) {
+      std::array<double, dim + 1> of_cell{};
       for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
-        of_cells[dim] += points.mass[p];
-        for (int i = 0; i < dim; ++i) of_cells[i] += points.mass[p] * points.v[i][p];
+        of_cell[dim] += points.mass[p];
+        for (int i = 0; i < dim; ++i) of_cell[i] += points.mass[p] * points.v[i][p];
       }
+      for (int a = 0; a < per_cell; ++a) std::ranges::copy(of_cell, corner.begin() + (dim + 1) * a);
     });
-    return of_cells;
   }
 
   // Checks Σ_p m_p v_p: in flip and xpic it has changed by the impulse; in pic and apic it is the initial Σ_i m_i v_i
@@ -211,7 +217,7 @@ class VelocityTransfer {
   void check_momentum(const Points& points, const std::vector<double>& mass, const std::vector<double>& v_start,
                       const std::vector<double>& impulse) {
     const double share = kept_share();
-    auto change = ConservationCheck<dim>::of_points(points);
+    auto change = conservation_.of_points(points);
     for (int i = 0; i < dim; ++i) change.sum[i] -= share * at_start_.sum[i];
     change.scale = std::max(change.scale, at_start_.scale);
     conservation_.compare_momentum(change, mass.size(),

@@ -118,8 +118,9 @@ class ElasticMaterial : public LawMaterialBase<Law> {
     std::vector<double> work;
     order.apply(memory_, work, begin_, count_);
   }
-  void take(const std::vector<int>& from, std::size_t begin, std::size_t count) override {
-    Base::take_values(memory_, from, begin, count);
+  std::size_t memory_rows() const override { return (moved_ ? components : 0) + (E_by_place_ ? 1 : 0); }
+  void replace(std::vector<double> memory, std::size_t begin, std::size_t count) override {
+    memory_ = std::move(memory);
     begin_ = begin;
     count_ = count;
   }

@@ -33,8 +33,9 @@ class HistoryBase : public LawMaterialBase<Law> {
   void reorder(const Reordering& order, std::vector<double>& work) override {
     order.apply(committed_, work, begin_, count_);
   }
-  void take(const std::vector<int>& from, std::size_t begin, std::size_t count) override {
-    Base::take_values(committed_, from, begin, count);
+  std::size_t memory_rows() const override { return rows_; }
+  void replace(std::vector<double> memory, std::size_t begin, std::size_t count) override {
+    committed_ = std::move(memory);
     begin_ = begin;
     count_ = count;
     this->set_history_size(rows_ * count);

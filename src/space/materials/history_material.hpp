@@ -17,7 +17,7 @@ namespace stillpoint {
 template <HistoryLaw Law>
 class HistoryMaterial final : public HistoryBase<Law> {
   using Base = HistoryBase<Law>;
-  using Base::components, Base::law_, Base::begin_, Base::count_, Base::K;
+  using Base::components, Base::law_, Base::begin_, Base::count_, Base::K, Base::group;
   using typename Base::Block, typename Base::ModuliMatrix, typename Base::Tensor, typename Base::Stresses;
   using History = typename Law::History;
 
@@ -32,20 +32,11 @@ class HistoryMaterial final : public HistoryBase<Law> {
     Base::set_stress(std::vector<Stresses>(count, Stresses{}), {});
   }
 
-  [[gnu::flatten]] double stress(Block& block, const double* V, double dt, double* trial) const override {
+  double stress(Block& block, const double* V, double dt, double* trial) const override {
     const double* from = Base::committed_at(block.first);
     double* to = Base::trial_at(trial, block.first);
-    const double* volume = V + block.first;
-    const Law law = law_;
-    const std::size_t count = block.count, n = count_;
-    const auto point = [&](std::size_t q) __attribute__((always_inline)) {
-      History next;
-      unroll<Law::history>([&](auto h) __attribute__((always_inline)) { next[h] = from[n * h + q]; });
-      const Tensor P = law.first_piola(block.H_at(q), block.dH_at(q), dt, next);
-      unroll<Law::history>([&](auto h) __attribute__((always_inline)) { to[n * h + q] = next[h]; });
-      return block.store_stress(q, volume[q], P);
-    };
-    return Base::sum_in_groups(count, point);
+    if (block.count >= group) return answer(block, block.count, V + block.first, dt, from, to, count_);
+    return answer_few(block, V + block.first, dt, from, to);
   }
   [[gnu::flatten]] double committed_stress(Block& block, const double* V) const override {
     const Law law = law_;
@@ -88,6 +79,37 @@ class HistoryMaterial final : public HistoryBase<Law> {
   }
 
  private:
+  // V P and the next history of the first `count` points in the block, a group or more. volume: theirs; from, to: their
+  // histories, entry h of point q at [n h + q].
+  [[gnu::noinline, gnu::flatten]] double answer(Block& block, std::size_t count, const double* volume, double dt,
+                                                const double* from, double* to, std::size_t n) const {
+    const Law law = law_;
+    const auto point = [&](std::size_t q) __attribute__((always_inline)) {
+      History next;
+      unroll<Law::history>([&](auto h) __attribute__((always_inline)) { next[h] = from[n * h + q]; });
+      const Tensor P = law.first_piola(block.H_at(q), block.dH_at(q), dt, next);
+      unroll<Law::history>([&](auto h) __attribute__((always_inline)) { to[n * h + q] = next[h]; });
+      return block.store_stress(q, volume[q], P);
+    };
+    return Base::sum_in_groups(count, point);
+  }
+  // The same of fewer points: copies of the last one complete the group, so that they go through the same loop and have
+  // the bits that they have in any other block.
+  double answer_few(Block& block, const double* volume, double dt, const double* from, double* to) const {
+    std::array<double, group> volumes;
+    std::array<double, group * Law::history> now, next;
+    for (std::size_t q = 0; q < group; ++q) {
+      const std::size_t p = std::min(q, block.count - 1);
+      volumes[q] = volume[p];
+      for (auto* rows : {&block.H, &block.dH})
+        for (auto& row : *rows) row[q] = row[p];
+      for (std::size_t h = 0; h < Law::history; ++h) now[group * h + q] = from[count_ * h + p];
+    }
+    const double bad = answer(block, group, volumes.data(), dt, now.data(), next.data(), group);
+    for (std::size_t h = 0; h < Law::history; ++h)
+      for (std::size_t q = 0; q < block.count; ++q) to[count_ * h + q] = next[group * h + q];
+    return bad;
+  }
   void write_initial(const Stresses& stress, const InitialPoint& point, double* to) const override {
     std::ranges::copy(law_.initial_history(stress, point), to);
   }

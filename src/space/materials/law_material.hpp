@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "space/materials/point_material.hpp"
 
@@ -38,31 +40,47 @@ class LawMaterialBase : public PointMaterial<kinematics(Law::state)> {
     return largest;
   }
 
+  void take(const std::vector<int>& from, std::size_t begin, std::size_t count) override {
+    const Vec values = this->memory();
+    std::vector<double> taken(this->memory_rows() * count);
+    for (std::size_t row = 0; row < this->memory_rows(); ++row) {
+      for (std::size_t k = 0; k < count; ++k)
+        taken[count * row + k] = values[count_ * row + static_cast<std::size_t>(from[begin + k]) - begin_];
+    }
+    this->replace(std::move(taken), begin, count);
+  }
+
  protected:
   static constexpr double real = sizeof(double);
 
   LawMaterialBase(const Law& law, std::size_t begin, std::size_t count, const PointMaterialInfo& info)
       : PointMaterial<K>(info), law_(law), begin_(begin), count_(count) {}
 
+  static constexpr std::size_t group = 8;  // fills the registers of present processors
+
   /// Σ point(q), q = 0 … count − 1, vectorised. The remainder of whole groups is a group too, which begins early
   /// enough: a point evaluated twice gives the same answer, which costs less than a remainder of single points. There
-  /// is one loop over all groups, as the compiler makes a third more instructions if each is a loop of its own.
+  /// is one loop over all groups, as the compiler makes a third more instructions if each is a loop of its own, and the
+  /// last group goes through it as well: a loop of its own would round otherwise, and a point's answer would depend on
+  /// where in a block it is.
   template <class Point>
   [[gnu::always_inline]] static double sum_in_groups(std::size_t count, const Point& point) {
-    constexpr std::size_t group = 8;  // fills the registers of present processors
-    const std::size_t whole = count / group * group;
     double sum = 0;
-#pragma omp simd reduction(+ : sum)
-    for (std::size_t q = 0; q < whole; ++q) sum += point(q);  // all locals are point's own, or GCC does not vectorise
-    if (whole == count) return sum;
     if (count < group) {
       for (std::size_t q = 0; q < count; ++q) sum += point(q);
       return sum;
     }
-    const std::size_t last = count - group;
+    std::size_t first = 0, groups = count / group;
+    while (true) {
+      asm("" : "+r"(first), "+r"(groups));  // the compiler does not know which pass it is
+      const std::size_t end = first + group * groups;
 #pragma omp simd reduction(+ : sum)
-    for (std::size_t q = 0; q < group; ++q) sum += point(last + q);
-    return sum;
+      for (std::size_t q = first; q < end; ++q)
+        sum += point(q);  // all locals are point's own, or GCC does not vectorise
+      if (end == count) return sum;
+      first = count - group;
+      groups = 1;
+    }
   }
 
   static Tensor contract(const ModuliMatrix& A, const Tensor& dH) {
@@ -80,18 +98,6 @@ class LawMaterialBase : public PointMaterial<kinematics(Law::state)> {
       largest = sum <= largest ? largest : sum;  // NaN stays
     }
     return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
-  }
-
-  // Takes the values of points from[begin] … from[begin + count − 1] out of rows of values, (rows × points).
-  void take_values(std::vector<double>& values, const std::vector<int>& from, std::size_t begin,
-                   std::size_t count) const {
-    const std::size_t rows = values.size() / count_;
-    std::vector<double> taken(rows * count);
-    for (std::size_t row = 0; row < rows; ++row) {
-      for (std::size_t k = 0; k < count; ++k)
-        taken[count * row + k] = values[count_ * row + static_cast<std::size_t>(from[begin + k]) - begin_];
-    }
-    values.swap(taken);
   }
 
   Law law_;

@@ -140,6 +140,10 @@ class PointMaterial {
   /// the displacement gradient F − I with which the phase began, if the body moves on; for one with history the
   /// committed history.
   virtual Vec memory() = 0;
+  /// The number of entries that memory() has for each point.
+  virtual std::size_t memory_rows() const = 0;
+  /// Replaces the material's points by begin … begin + count − 1, which remember this, (memory_rows() × count).
+  virtual void replace(std::vector<double> memory, std::size_t begin, std::size_t count) = 0;
   /// Sorts the points anew. work: (history_size).
   virtual void reorder(const Reordering& order, std::vector<double>& work) = 0;
   /// Replaces the material's points: point number p is a copy of the former point number from[p].

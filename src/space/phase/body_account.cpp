@@ -9,10 +9,11 @@
 #include <fmt/format.h>
 
 #include "base/parallel_loop.hpp"
+#include "space/phase/place_of_ranks.hpp"
 
 namespace stillpoint {
 template <Kinematics K>
-PhaseInfo BodyAccount<K>::describe(bool held_by_springs) const {
+PhaseInfo BodyAccount<K>::describe(double total_mass, bool held_by_springs) const {
   std::set<std::string> names;
   bool remembers = false, finite_strain = false, follows_stress = false;
   for (const auto& material : body_.materials) {
@@ -25,7 +26,7 @@ PhaseInfo BodyAccount<K>::describe(bool held_by_springs) const {
           .gradient_components = stillpoint::gradient_components(K),
           .stress_components = stillpoint::stress_components(K),
           .points = body_.numbers(),
-          .total_mass = total_mass(),
+          .total_mass = total_mass,
           .history_names = {names.begin(), names.end()},
           .updated_lagrangian = moves_on(),
           .remembers = remembers,
@@ -39,7 +40,7 @@ PhaseInfo BodyAccount<K>::describe(bool held_by_springs) const {
 template <Kinematics K>
 std::vector<PointArray> BodyAccount<K>::arrays(const std::vector<PointArray>& of_phase) const {
   constexpr double real = sizeof(double);
-  const auto P = static_cast<double>(body_.numbers());
+  const auto P = static_cast<double>(ranks_ ? body_.points.size() : body_.numbers());
   std::vector<PointArray> arrays = {
       {"position", dim * real}, {"mass", real}, {"volume", real}, {"number", sizeof(int)}};
   std::ranges::copy(of_phase, std::back_inserter(arrays));
@@ -62,16 +63,13 @@ std::vector<PointArray> BodyAccount<K>::arrays(const std::vector<PointArray>& of
 template <Kinematics K>
 std::vector<double> BodyAccount<K>::positions() const {
   std::vector<double> out(dim * body_.numbers());
-  write_points(body_, out, [&](std::size_t, std::size_t p) { return body_.points.position(p); });
+  write_points(body_, ranks_, out, [&](std::size_t, std::size_t p) { return body_.points.position(p); });
   return out;
 }
 
-// In the order of the points' numbers, which does not change.
 template <Kinematics K>
 double BodyAccount<K>::total_mass() const {
-  std::vector<double> m(body_.numbers());
-  for_points(body_.points, [&](std::size_t, std::size_t p, std::size_t number) { m[number] = body_.points.mass[p]; });
-  return sum_over(m.size(), [&](std::size_t p) { return m[p]; });
+  return sum_over(body_.points.size(), [m = body_.points.mass.data()](std::size_t p) { return m[p]; });
 }
 
 template <Kinematics K>
@@ -90,6 +88,9 @@ PointData BodyAccount<K>::point_data(const std::vector<double>& origin) const {
     data.masses[number] += body_.points.mass[p];
     data.materials[number] = material[static_cast<std::size_t>(body_.points.material_of_cell(k))];
   });
+  unite(ranks_, Vec(data.volumes));
+  unite(ranks_, Vec(data.masses));
+  unite(ranks_, std::span(data.materials));
   return data;
 }
 
@@ -104,6 +105,7 @@ void BodyAccount<K>::history(const std::string& name, Vec out) const {
         out[static_cast<std::size_t>(body_.points.number[begin + k])] = values[k];
     }
   }
+  unite(ranks_, out);
 }
 
 // Where the strength is next to nothing, as at a free surface of ground without cohesion, a hundredth of the largest
@@ -125,13 +127,17 @@ std::optional<OverStress> BodyAccount<K>::over_stress() const {
     found = true;
     largest = std::max(largest, at.root_J2);
   });
-  if (!found) return std::nullopt;
+  if (!is_so_for_any(ranks_, found)) return std::nullopt;
+  largest = largest_of_all(ranks_, largest);
   OverStress worst{.share = -std::numeric_limits<double>::infinity()};
+  const auto take = [&worst](const OverStress& other) {
+    if (!std::isnan(worst.share) && !(other.share <= worst.share)) worst = other;
+  };
   for_viscous([&](const YieldState& at, std::size_t number) {
     const double strength = std::max(at.strength, share_of_largest * largest);
-    const double share = at.f == 0 ? 0 : at.f / strength;
-    if (!std::isnan(worst.share) && !(share <= worst.share)) worst = {share, number};
+    take({at.f == 0 ? 0 : at.f / strength, number});
   });
+  for (const OverStress& of_rank : of_all(ranks_, worst)) take(of_rank);
   return worst;
 }
 
@@ -141,7 +147,7 @@ PlaceInBody BodyAccount<K>::place_of(std::size_t number) const {
   for_points(body_.points, [&](std::size_t k, std::size_t p, std::size_t n) {
     if (n == number) at = place(k, p);
   });
-  return at;
+  return place_of_ranks(ranks_, at);
 }
 
 template <Kinematics K>

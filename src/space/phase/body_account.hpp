@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "parallel/of_all.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "space/points/body.hpp"
 
@@ -19,16 +20,18 @@ class BodyAccount {
   static constexpr int dim = dimensions(K);
 
  public:
-  /// All arguments must outlive this object.
-  BodyAccount(const Problem& problem, const Grid<dim>& grid, const Body<K>& body)
-      : problem_(problem), grid_(grid), body_(body) {}
+  /// All arguments must outlive this object. ranks: that share the points.
+  BodyAccount(const Problem& problem, const Grid<dim>& grid, const Body<K>& body, const Ranks* ranks)
+      : problem_(problem), grid_(grid), body_(body), ranks_(ranks) {}
 
-  /// held_by_springs: whether a support holds by springs, which move with the body from phase to phase.
-  PhaseInfo describe(bool held_by_springs) const;
+  /// total_mass: of the points of all ranks [kg]; held_by_springs: whether a support holds by springs, which move with
+  /// the body from phase to phase.
+  PhaseInfo describe(double total_mass, bool held_by_springs) const;
   /// The arrays of all points: `of_phase`, and those that laws store, each weighted by its share of the points.
   std::vector<PointArray> arrays(const std::vector<PointArray>& of_phase) const;
   /// The positions of the points, (P × dim).
   std::vector<double> positions() const;
+  /// The mass of the points that are here [kg].
   double total_mass() const;
   /// origin: positions at the start of the run, (P × dim); empty if points do not move on.
   PointData point_data(const std::vector<double>& origin) const;
@@ -44,22 +47,26 @@ class BodyAccount {
   double shortest_time() const;
 
  private:
-  bool moves_on() const { return !body_.points.v[0].empty(); }
+  bool moves_on() const { return problem_.phase.ends(); }
 
   const Problem& problem_;
   const Grid<dim>& grid_;
   const Body<K>& body_;
+  const Ranks* ranks_;
 };
 
 /// Writes value_at(occupied cell, point), an array, to out at each point's number; for a point in parts their mean.
+/// Where ranks share the points, all get the values of all.
 template <Kinematics K, class ValueAt>
-void write_points(const Body<K>& body, Vec out, const ValueAt& value_at) {
+void write_points(const Body<K>& body, const Ranks* ranks, Vec out, const ValueAt& value_at) {
   const MaterialPoints<dimensions(K)>& points = body.points;
-  if (points.size() == body.numbers()) {
-    return for_points(points, [&](std::size_t k, std::size_t p, std::size_t number) {
+  if (points.size() == body.numbers() || ranks) {
+    if (ranks) std::ranges::fill(out, 0.0);
+    for_points(points, [&](std::size_t k, std::size_t p, std::size_t number) {
       const auto value = value_at(k, p);
       std::copy(value.begin(), value.end(), out.begin() + static_cast<std::ptrdiff_t>(value.size() * number));
     });
+    return unite(ranks, out);
   }
   std::vector<double> mass(body.numbers(), 0);
   for_points(points, [&](std::size_t, std::size_t p, std::size_t number) { mass[number] += points.mass[p]; });

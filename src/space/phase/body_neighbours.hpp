@@ -9,6 +9,7 @@
 
 #include "scene/body_depth.hpp"
 #include "space/kernels/point_functions.hpp"
+#include "space/kernels/shared_corners.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 #include "space/points/material_points.hpp"
 
@@ -20,13 +21,14 @@ class BodyNeighbours {
   /// All arguments belong to the phase that begins, and must outlive this object; first_number: the number of the first
   /// point of each body, and the number of all points.
   BodyNeighbours(const Problem& problem, const GridFunctions<Dim>& functions, const MaterialPoints<Dim>& points,
-                 const PointFunctions<Dim>& weights, const std::vector<int>& first_number)
+                 const PointFunctions<Dim>& weights, const std::vector<int>& first_number, const Ranks* ranks)
       : problem_(problem),
         functions_(functions),
         grid_(functions.grid()),
         points_(points),
         weights_(weights),
-        first_number_(first_number) {}
+        first_number_(first_number),
+        ranks_(ranks) {}
 
   /// The gaps of all such pairs. at_start: whether bodies are in their initial positions, so that their surfaces are
   /// known.
@@ -35,13 +37,20 @@ class BodyNeighbours {
   std::vector<std::vector<std::size_t>> bodies_of_functions() const;
 
  private:
-  std::size_t body_of(std::size_t p) const;
-  BodyGap gap_between(std::size_t a, std::size_t b, const std::vector<BodyDepth>* shapes) const;
-  double distance(std::size_t p, std::size_t q) const;
-  // The length along an axis of the cell in which point p is, in the grid at the start.
-  double cell_length(int d, std::size_t p) const;
-  double half_spacing(std::size_t body, std::size_t p) const;
-  double gap_along(std::size_t p, std::size_t q, const BodyDepth& a, const BodyDepth& b) const;
+  // A point of a cell that shares functions with another body.
+  struct Near {
+    CellPlace of;
+    std::size_t body = 0;
+    Point<Dim> x{};
+  };
+  std::vector<Near> points_near_others(const std::vector<std::vector<std::size_t>>& bodies) const;
+  BodyGap gap_between(std::size_t a, std::size_t b, const std::vector<Near>& points,
+                      const std::vector<BodyDepth>* shapes) const;
+  static double distance(const Near& p, const Near& q);
+  // The length along an axis of the cell in which a point is, in the grid at the start.
+  double cell_length(int d, const Near& p) const;
+  double half_spacing(const Near& p) const;
+  double gap_along(const Near& p, const Near& q, const BodyDepth& a, const BodyDepth& b) const;
 
   const Problem& problem_;
   const GridFunctions<Dim>& functions_;
@@ -49,6 +58,7 @@ class BodyNeighbours {
   const MaterialPoints<Dim>& points_;
   const PointFunctions<Dim>& weights_;
   const std::vector<int>& first_number_;
+  const Ranks* ranks_;
 };
 
 }  // namespace stillpoint

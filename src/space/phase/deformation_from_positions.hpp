@@ -50,9 +50,9 @@ class DeformationFromPositions {
 
   /// The share of a function's displacement that counts as a motion of points, (functions). A function with N_ip next
   /// to nothing at all points may move far to strain them, but hardly moves them: no phase has to end for that.
-  static std::vector<double> share_of_motion(const Body<K>& body, const Weights& weights, std::size_t functions) {
+  static std::vector<double> share_of_motion(const Body<K>& body, const Weights& weights, const CornerSum& corner_sum) {
     constexpr double full = 0.05;  // the largest N_ip from which on the share is 1
-    std::vector<double> share(functions, 0);
+    std::vector<double> share(corner_sum.functions(), 0);
     for_points(body.points, [&](std::size_t k, std::size_t p, std::size_t) {
       const auto N = weights.N(k, p);
       for (int a = 0; a < per_cell; ++a) {
@@ -60,13 +60,19 @@ class DeformationFromPositions {
         of_function = std::max(of_function, std::min(1.0, std::abs(N[a]) / full));
       }
     });
+    if (const Ranks* ranks = corner_sum.ranks()) {
+      for (double& of_function : share) of_function = -of_function;
+      ranks->smallest(std::span(share));
+      for (double& of_function : share) of_function = -of_function;
+    }
     return share;
   }
 
   bool has_begun() const { return !anchored_.empty(); }
   /// Prepares the first phase of a run or a stage: an unknown that a support holds at rest now has U = 0 for as long as
   /// it is held, but in a body that has moved before.
-  void begin(Body<K>& body, const Weights& weights, const HeldUnknowns& held, std::size_t functions) {
+  void begin(Body<K>& body, const Weights& weights, const CornerSum& corner_sum, const HeldUnknowns& held) {
+    const std::size_t functions = corner_sum.functions();
     anchored_.assign(body.first_number.size() - 1, {});
     for (std::size_t b = 0; b < anchored_.size(); ++b) {
       std::vector<char> reached(functions, 0);
@@ -74,6 +80,7 @@ class DeformationFromPositions {
         if (!is_of(body, b, p)) return;
         for (int a = 0; a < per_cell; ++a) reached[static_cast<std::size_t>(weights.function(k, a))] = 1;
       });
+      unite(corner_sum.ranks(), std::span(reached));
       anchored_[b].assign(dim * functions, 0);
       if (body.carried_on[b]) continue;
       for (std::size_t s = 0; s < held.prescribed().size(); ++s) {
@@ -100,11 +107,12 @@ class DeformationFromPositions {
              const HeldUnknowns& held, const std::vector<double>& origin) const {
     const PointDeformations memory(body);
     for (std::size_t b = 0; b + 1 < body.first_number.size(); ++b) {
-      const Values values = displacements(body, b, memory, origin);
-      if (values.mass.empty()) continue;
+      Values values = displacements(body, b, memory, origin);
+      if (!is_so_for_any(corner_sum.ranks(), !values.mass.empty())) continue;
+      if (values.mass.empty()) leave_out(body.points.size(), values);
       const Fit fit(grid, body.points, weights, corner_sum, values, options(grid.axes[0].smallest_scale()));
       const std::vector<double> U = fit.solve(still_anchored(b, held));
-      const std::vector<char> trusted = trusted_functions(grid, body.points, weights, fit, values, U);
+      const std::vector<char> trusted = trusted_functions(grid, body.points, weights, corner_sum, fit, values, U);
       for_each_block(body.points.cells(), [&](std::size_t k) {
         for (int a = 0; a < per_cell; ++a) {
           if (!trusted[static_cast<std::size_t>(weights.function(k, a))]) return;
@@ -172,6 +180,13 @@ class DeformationFromPositions {
     return plus_identity<K>(H);
   }
 
+  // Values of so many points, all of which are left out.
+  static void leave_out(std::size_t points, Values& values) {
+    values.value.resize(points);
+    values.gradient.resize(points);
+    values.mass.assign(points, 0);
+  }
+
   // The displacements U_p and I − F_p⁻¹ of the points of body b; empty if its law is another.
   static Values displacements(const Body<K>& body, std::size_t b, const PointDeformations& memory,
                               const std::vector<double>& origin) {
@@ -181,11 +196,7 @@ class DeformationFromPositions {
       if (!memory.has(k)) continue;
       for (std::size_t p = points.begin(k); p < points.end(k); ++p) {
         if (!is_of(body, b, p)) continue;
-        if (values.mass.empty()) {
-          values.value.resize(points.size());
-          values.gradient.resize(points.size());
-          values.mass.assign(points.size(), 0);
-        }
+        if (values.mass.empty()) leave_out(points.size(), values);
         const auto H = present_deformation(points, memory, k, p);
         const auto gradient = product<K>(inverse<K>(plus_identity<K>(H)), H);  // I − F⁻¹
         const auto number = static_cast<std::size_t>(points.number[p]);
@@ -225,8 +236,8 @@ class DeformationFromPositions {
 
   // Whether the fit misses no point near a function by much, (functions).
   static std::vector<char> trusted_functions(const Grid<dim>& grid, const MaterialPoints<dim>& points,
-                                             const Weights& weights, const Fit& fit, const Values& values,
-                                             const std::vector<double>& U) {
+                                             const Weights& weights, const CornerSum& corner_sum, const Fit& fit,
+                                             const Values& values, const std::vector<double>& U) {
     std::vector<char> misses(points.cells(), 0);
     for_each_block(points.cells(), [&](std::size_t k) {
       const auto cell = grid.cell_at(points.cell[k]);
@@ -239,12 +250,14 @@ class DeformationFromPositions {
         }
       }
     });
-    std::vector<char> trusted(U.size() / dim, 1);
+    std::vector<char> missing(U.size() / dim, 0);
     for (std::size_t k = 0; k < points.cells(); ++k) {
       if (!misses[k]) continue;
-      for (int a = 0; a < per_cell; ++a) trusted[static_cast<std::size_t>(weights.function(k, a))] = 0;
+      for (int a = 0; a < per_cell; ++a) missing[static_cast<std::size_t>(weights.function(k, a))] = 1;
     }
-    return trusted;
+    unite(corner_sum.ranks(), std::span(missing));
+    for (char& one : missing) one = one == 0;
+    return missing;
   }
 
   std::vector<std::vector<char>> anchored_;  // for each body, the unknowns that were held at rest at the start

@@ -253,7 +253,7 @@ class InternalForce {
       const std::scoped_lock lock(largest_is_written);
       largest = bound <= largest ? largest : bound;
     });
-    return largest;
+    return largest_of_all(frame_.ranks, largest);
   }
   double bound_at_rest() const {
     const Loan work = borrow();

@@ -20,6 +20,7 @@
 
 #include "base/memory_report.hpp"
 #include "linalg/nodal_layout.hpp"
+#include "parallel/ranks.hpp"
 #include "space/boundary/condition_reports.hpp"
 #include "space/phase/place_reader.hpp"
 #include "space/points/carried_points.hpp"
@@ -269,6 +270,7 @@ class PointLost : public std::runtime_error {
 struct PhaseBegin {
   const CarriedBody* carried = nullptr;  // what the points hand on that were there before; null: nothing, at the start
   double t = 0;                          // [s]
+  const Ranks* ranks = nullptr;          // that share the points, and outlive the phase; null: this one has them all
 };
 
 /// Makes the first phase: places the bodies, evaluates and freezes the weights, assembles the mass. The instantiation

@@ -26,7 +26,7 @@ class MaterialPointPhase final : public LagrangianPhase {
  public:
   MaterialPointPhase(const Problem& problem, const PhaseBegin& begin)
       : LagrangianPhase({fields_, supports_, shape_, control_, diagnosis_}), all_(problem, begin) {
-    info_ = all_.frame.account().describe(all_.conditions.hold_by_springs());
+    info_ = all_.frame.account().describe(all_.frame.total_mass, all_.conditions.hold_by_springs());
     info_.of_small_strain = all_.frame.is_of_small_strain();
     if (all_.conditions.may_touch()) {
       info_.nonlinear = info_.may_touch = true;

@@ -118,7 +118,8 @@ class MatrixOfMeans {
  private:
   template <class AddCell>
   SparseMatrix assembled(const AddCell& add_cell) const {
-    return assemble_whole_cells<B, K>(frame_.grid, points_, frame_.weights, frame_.dofs(), add_cell).free;
+    return assemble_whole_cells<B, K>(frame_.grid, points_, frame_.weights, frame_.corner_sum, frame_.dofs(), add_cell)
+        .free;
   }
   std::size_t material(std::size_t k) const { return static_cast<std::size_t>(points_.material_of_cell(k)); }
 

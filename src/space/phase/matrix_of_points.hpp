@@ -47,7 +47,7 @@ SparseMatrix matrix_of_points(const PhaseFrame<B, K>& frame, Tangent kind, doubl
       }
     }
   };
-  return assemble_cells<B, K>(frame.grid, frame.body.points, weights, frame.dofs(), add_point).free;
+  return assemble_cells<B, K>(frame.grid, frame.body.points, weights, frame.corner_sum, frame.dofs(), add_point).free;
 }
 
 }  // namespace stillpoint

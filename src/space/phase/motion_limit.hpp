@@ -37,7 +37,7 @@ class MotionLimit {
     });
     if (!by_reach) return;
     const std::vector<double> share =
-        DeformationFromPositions<B, K>::share_of_motion(frame_.body, frame_.weights, frame_.functions_of_grid());
+        DeformationFromPositions<B, K>::share_of_motion(frame_.body, frame_.weights, frame_.corner_sum);
     for (std::size_t k = 0; k < weight_.size(); ++k) weight_[k] *= share[static_cast<std::size_t>(free[k] / dim)];
   }
 
@@ -112,7 +112,7 @@ class MotionLimit {
       const std::scoped_lock lock(largest_is_written);
       largest = std::max(largest, of_block);
     });
-    return largest;
+    return largest_of_all(frame_.ranks, largest);
   }
 
   const PhaseFrame<B, K>& frame_;

@@ -28,14 +28,15 @@ struct PhaseAssembly {
   /// Places the bodies and begins the first phase, or the first one of a stage.
   PhaseAssembly(const Problem& whole, const PhaseBegin& begin)
       : problem(without_reference_loads(whole)),
-        frame(problem, static_cast<const CarriedBodyOf<K>*>(begin.carried)),
+        frame(problem, static_cast<const CarriedBodyOf<K>*>(begin.carried), begin.ranks),
         conditions(problem, whole, frame.grid, frame.body, frame.within_shapes(), frame.account().shortest_time()) {
+    if (frame.moves_on()) set_initial_velocity(problem, frame.body);
+    frame.share_out_points();
     extend_into_slivers();
     if (begin.carried) {
       conditions.take_over(begin.carried->conditions);
       rest.take_over(begin.carried->rest);
     }
-    if (frame.moves_on()) set_initial_velocity(problem, frame.body);
     begin_phase(begin.t);
   }
   PhaseAssembly(const PhaseAssembly&) = delete;
@@ -70,7 +71,7 @@ struct PhaseAssembly {
     force.take_points();
   }
   HeldUnknowns hold(double t, const std::vector<char>& reached) {
-    return conditions.hold(t, frame.functions, frame.body.points, frame.weights, reached);
+    return conditions.hold(t, frame.functions, frame.body.points, frame.weights, reached, frame.ranks);
   }
   void place_functions(double t) {
     make_weights();

@@ -57,6 +57,8 @@ class PhaseControlOf final : public PhaseControl {
     double t = frame.held().start();
     state("began_at", t);
     state("phase", frame.phase);
+    // A saved state is that of one process, whatever number of ranks leaves it or goes on from it.
+    if (frame.ranks) Migration<K>(*frame.ranks, body).gather(frame.grid);
     if (body.points.has_domains()) {
       if (const std::vector<int> from = archive_number_of_points(state, body.points); !from.empty())
         take_materials(body, from);
@@ -71,6 +73,11 @@ class PhaseControlOf final : public PhaseControl {
     }
     all_.conditions.archive(state);
     if (state.restores() && frame.moves_on()) take_saved_grid(numbered);
+    if (state.restores()) {
+      frame.share_out_points();
+    } else if (frame.ranks) {
+      Migration<K>(*frame.ranks, body).keep_own(frame.cells_of_ranks, frame.grid);
+    }
     all_.rest.archive(state.part("rest"));
     if (state.restores() && frame.moves_on()) {
       all_.resume_phase(t);

@@ -16,6 +16,7 @@
 
 #include "space/phase/lagrangian_phase.hpp"
 #include "space/phase/phase_assembly.hpp"
+#include "space/phase/place_of_ranks.hpp"
 
 namespace stillpoint {
 
@@ -43,16 +44,19 @@ class PhaseDiagnosisOf final : public PhaseDiagnosis {
     PlaceInBody at{.what = "the node"};
     for (int d = 0; d < dim; ++d) at.position.push_back(frame_.functions.centre(function, d));
     double largest = -1;
+    PlaceInBody beside;
     frame_.for_points([&](std::size_t k, std::size_t p, std::size_t) {
       const auto N = frame_.weights.N(k, p);
       for (int a = 0; a < per_cell; ++a) {
         if (frame_.weights.function(k, a) != function || !(std::abs(N[a]) > largest)) continue;
         largest = std::abs(N[a]);
-        const PlaceInBody point = frame_.account().place(k, p);
-        at.material_point = point.what;
-        at.cell = point.cell;
+        beside = frame_.account().place(k, p);
       }
     });
+    if (largest < largest_of_all(frame_.ranks, largest)) beside = {};
+    beside = place_of_ranks(frame_.ranks, beside);
+    at.material_point = beside.what;
+    at.cell = beside.cell;
     return at;
   }
 
@@ -88,7 +92,7 @@ class PhaseDiagnosisOf final : public PhaseDiagnosis {
     struct Bad {
       double det_f = 0, stress = 0;
       int component = 0;
-      std::size_t p = 0;
+      std::size_t material = 0;
       int number = 0;
     };
     std::vector<Bad> all;
@@ -107,19 +111,18 @@ class PhaseDiagnosisOf final : public PhaseDiagnosis {
           if (std::isfinite(block.VP[c][q])) continue;
           const std::size_t p = block.first + q;
           const std::scoped_lock lock(all_is_written);
-          all.push_back({det[q], block.VP[c][q], c, p, points.number[p]});
+          all.push_back({det[q], block.VP[c][q], c, m, points.number[p]});
           break;
         }
       }
     };
     force.laws().take_means(trial.arrays->u.data(), *work);
     force.points().template visit<true>(trial.arrays->u.data(), std::cref(look), force.committed().u.data());
+    all = joined_lists(frame_.ranks, std::move(all));
     if (all.empty()) return "a stress that is not finite";
     const Bad worst = *std::ranges::min_element(
         all, [](const Bad& a, const Bad& b) { return std::pair(a.det_f, a.number) < std::pair(b.det_f, b.number); });
-    std::size_t k = 0;
-    while (points.end(k) <= worst.p) ++k;
-    const std::string at = to_string(frame_.account().place(k, worst.p));
+    const std::string at = to_string(frame_.account().place_of(static_cast<std::size_t>(worst.number)));
     const std::string others = all.size() > 1 ? fmt::format(" (and at {} other points)", all.size() - 1) : "";
     if (!std::isfinite(worst.det_f)) return "the displacement is not finite at " + at + others;
     if (worst.det_f <= 0) {
@@ -132,7 +135,7 @@ class PhaseDiagnosisOf final : public PhaseDiagnosis {
         "the stress {} of the law is not finite ({}) at {}{}, where det f = {:.3g}; expected smaller loads, a smaller "
         "integrator.step_fraction, or other parameters of material.{}",
         name_of_stress(worst.component), worst.stress, at, others, worst.det_f,
-        frame_.body.material_names[static_cast<std::size_t>(points.material_of_cell(k))]);
+        frame_.body.material_names[worst.material]);
   }
 
   const PhaseAssembly<B, K>& all_;

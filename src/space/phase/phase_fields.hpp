@@ -41,10 +41,11 @@ class PhaseFieldsOf final : public PhaseFields {
     const double* u = work->u.data();
     if (quantity == PointQuantity::volume) {
       std::ranges::fill(out, 0.0);
-      return frame_.for_points([&](std::size_t k, std::size_t p, std::size_t number) {
+      frame_.for_points([&](std::size_t k, std::size_t p, std::size_t number) {
         const bool changes = frame_.material_of(k).info().finite_strain;
         out[number] += points.volume[p] * (changes ? determinant<K>(plus_identity<K>(weights.gradient(u, k, p))) : 1.0);
       });
+      return unite(frame_.ranks, out);
     }
     if (quantity == PointQuantity::strain)
       return write(out, [&](std::size_t k, std::size_t p) { return weights.gradient(u, k, p); });
@@ -80,8 +81,9 @@ class PhaseFieldsOf final : public PhaseFields {
     const auto gradients = std::make_shared<Gradients>(all_, grid_u);
     return std::make_unique<PhasePlaces<K>>(
         std::make_unique<FunctionsOfBasis<Spline, dim>>(frame_.grid, frame_.body.fields), Spline::degree, frame_.body,
-        frame_.dofs(), [gradients](std::size_t k, std::size_t p) { return gradients->of_points.at(k, p); },
-        std::move(grid_u), frame_.unknowns.velocities(t, v));
+        frame_.ranks, frame_.dofs(),
+        [gradients](std::size_t k, std::size_t p) { return gradients->of_points.at(k, p); }, std::move(grid_u),
+        frame_.unknowns.velocities(t, v));
   }
 
   // Forces are Σ_p V_p σ_p ∇N_ip: a stress that varies from point to point faster than the functions is in the null
@@ -105,26 +107,27 @@ class PhaseFieldsOf final : public PhaseFields {
       for (const double value : values) sum += value * value;
       return sum;
     };
+    const auto over_points = [&](const auto& term) { return sum_over_ranks(frame_.ranks, points.size(), term); };
     double missed = 0, all = 0;
     for (std::size_t b = 0; b + 1 < first_number.size(); ++b) {
       of_points.mass.assign(points.size(), 0);
-      double volume = 0, of_body = 0;
-      frame_.for_points([&](std::size_t, std::size_t p, std::size_t) {
-        if (points.number[p] < first_number[b] || points.number[p] >= first_number[b + 1]) return;
-        of_points.mass[p] = points.volume[p];
-        volume += points.volume[p];
-        of_body += points.volume[p] * square(of_points.value[p]);
-      });
+      for (std::size_t p = 0; p < points.size(); ++p)
+        if (points.number[p] >= first_number[b] && points.number[p] < first_number[b + 1])
+          of_points.mass[p] = points.volume[p];
+      const double volume = over_points([&](std::size_t p) { return of_points.mass[p]; });
+      const double of_body = over_points([&](std::size_t p) { return of_points.mass[p] * square(of_points.value[p]); });
       all += of_body;
       if (!(of_body > 0)) continue;
       const Fit fit(frame_.grid, points, frame_.weights, frame_.corner_sum, of_points,
                     {.gradient_share = 0, .tolerance = 1e-3 * std::sqrt(of_body / volume), .iterations = 30});
       const std::vector<double> fitted = fit.solve({});
+      std::vector<double> off(points.size());
       frame_.for_points([&](std::size_t k, std::size_t p, std::size_t) {
-        auto off = fit.value(fitted, k, p);
-        for (int i = 0; i < stresses; ++i) off[i] -= of_points.value[p][i];
-        missed += of_points.mass[p] * square(off);
+        auto by = fit.value(fitted, k, p);
+        for (int i = 0; i < stresses; ++i) by[i] -= of_points.value[p][i];
+        off[p] = of_points.mass[p] * square(by);
       });
+      missed += over_points([&](std::size_t p) { return off[p]; });
     }
     return all > 0 ? std::sqrt(missed / all) : 0;
   }
@@ -132,7 +135,7 @@ class PhaseFieldsOf final : public PhaseFields {
  private:
   template <class ValueAt>
   void write(Vec out, const ValueAt& value_at) const {
-    write_points(frame_.body, out, value_at);
+    write_points(frame_.body, frame_.ranks, out, value_at);
   }
 
   const PhaseAssembly<B, K>& all_;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "parallel/of_all.hpp"
 #include "space/grid/extended_functions.hpp"
 #include "space/grid/grid_functions.hpp"
 #include "space/grid/scene_grid.hpp"
@@ -19,7 +20,9 @@
 #include "space/phase/initial_state.hpp"
 #include "space/phase/phase_unknowns.hpp"
 #include "space/points/make_body.hpp"
+#include "space/points/migration.hpp"
 #include "space/points/numbered_cells.hpp"
+#include "space/points/rank_cells.hpp"
 
 namespace stillpoint {
 
@@ -28,9 +31,11 @@ struct PhaseFrame {
   static constexpr int dim = dimensions(K);
   using Basis = TensorBasis<B, dim>;
 
-  /// Places the bodies, or takes those that a stage has left; the problem must outlive this object.
-  PhaseFrame(const Problem& of, const CarriedBodyOf<K>* carried)
+  /// Places the bodies, or takes those that a stage has left; the problem and the ranks must outlive this object. All
+  /// points are here until they are shared out.
+  PhaseFrame(const Problem& of, const CarriedBodyOf<K>* carried, const Ranks* of_ranks)
       : problem(of),
+        ranks(of_ranks),
         grid_moved(carried ? carried->grid_moved() : 0),
         grid(NumberedCells<dim>::around_shapes(of, saved_grid_at<dim>(of, grid_moved), carried != nullptr)),
         body(make_body<K>(of, grid, of.phase.ends(), carried)),
@@ -45,6 +50,22 @@ struct PhaseFrame {
   }
   PhaseFrame(const PhaseFrame&) = delete;
   PhaseFrame& operator=(const PhaseFrame&) = delete;
+
+  /// Leaves each rank with its own points.
+  void share_out_points() {
+    if (!ranks) return;
+    cells_of_ranks = RankCells<dim>(grid, ranks->count());
+    cells_of_ranks.share_out(points_of_cells());
+    Migration<K>(*ranks, body).keep_own(cells_of_ranks, grid);
+  }
+  /// How many points the cells of this rank hold.
+  std::vector<PointsOfCell> points_of_cells() const {
+    std::vector<PointsOfCell> all;
+    for (std::size_t k = 0; k < body.points.cells(); ++k)
+      all.push_back({cells_of_ranks.place(grid.cell_at(body.points.cell[k])),
+                     static_cast<std::int64_t>(body.points.end(k) - body.points.begin(k))});
+    return all;
+  }
 
   /// Evaluates the weights of the points where they are now, and the sums over the points at the grid's functions.
   void make_weights() {
@@ -73,7 +94,7 @@ struct PhaseFrame {
   std::size_t size() const { return unknowns.size(); }
   const DegreesOfFreedom& dofs() const { return unknowns.dofs(); }
   const HeldUnknowns& held() const { return unknowns.held(); }
-  BodyAccount<K> account() const { return {problem, grid, body}; }
+  BodyAccount<K> account() const { return {problem, grid, body, ranks}; }
   const PointMaterial<K>& material_of(std::size_t k) const {
     return *body.materials[static_cast<std::size_t>(body.points.material_of_cell(k))];
   }
@@ -90,6 +111,8 @@ struct PhaseFrame {
   }
 
   const Problem& problem;
+  const Ranks* const ranks;  // that share the points; null: this one has them all
+  RankCells<dim> cells_of_ranks;
   double grid_moved;  // displacement of the wall that the grid follows [m]
   Grid<dim> grid;
   Body<K> body;
@@ -124,7 +147,8 @@ struct PhaseFrame {
             as_before;
       }
     }
-    if (!as_before) corner_sum.rebuild(function_of_corner_, count);
+    if (is_so_for_all(ranks, as_before)) return;
+    corner_sum.rebuild(function_of_corner_, count, ranks, ranks ? places_of_cells(points) : std::vector<CellPlace>());
   }
 
   std::vector<double> where_placed_;     // of bodies of another run: within_shapes(); else empty

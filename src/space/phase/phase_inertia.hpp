@@ -11,6 +11,7 @@
 
 #include "linalg/sparse_cholesky.hpp"
 #include "scene/throw_scene_error.hpp"
+#include "space/boundary/point_loads.hpp"
 #include "space/kernels/cell_assembly.hpp"
 #include "space/kernels/extended_sums.hpp"
 #include "space/kernels/nodal_inertia.hpp"
@@ -57,8 +58,8 @@ class PhaseInertia {
   const std::vector<double>& node_mass() const { return of_functions_.mass(); }
   /// What the boundary conditions use of the phase.
   PhaseParts<dim> parts() const {
-    return {frame_.grid, frame_.functions, frame_.body.points, frame_.weights, frame_.held(), frame_.dofs(),
-            node_mass(), *mass_,           frame_.remembers};
+    return {frame_.grid,   frame_.functions, frame_.body.points, frame_.weights, frame_.corner_sum,
+            frame_.held(), frame_.dofs(),    node_mass(),        *mass_,         frame_.remembers};
   }
   void archive(const StateArchive& state) { of_functions_.archive(state); }
 
@@ -81,12 +82,8 @@ class PhaseInertia {
     std::vector<double> u(frame_.size(), 0.0);
     if (field.empty()) return u;
     const MaterialPoints<dim>& points = frame_.body.points;
-    frame_.for_points([&](std::size_t k, std::size_t p, std::size_t) {
-      const auto moment = [&](int i) {
-        return points.mass[p] * field[static_cast<std::size_t>(i)](points.position(p), 0);
-      };
-      frame_.weights.add_at_functions(k, p, moment, frame_.dofs(), u);
-    });
+    add_point_loads(
+        parts(), [&](std::size_t p, int i) { return field[static_cast<std::size_t>(i)](points.position(p), 0); }, u);
     std::optional<SplitMatrix> of_points;
     if (!consistent_) of_points = consistent_mass_of_points();
     const SplitMatrix& M = consistent_ ? *consistent_ : *of_points;
@@ -121,7 +118,7 @@ class PhaseInertia {
 
  private:
   SplitMatrix consistent_mass_of_points() const {
-    return consistent_mass<B, K>(frame_.grid, frame_.body.points, frame_.weights, frame_.dofs());
+    return consistent_mass<B, K>(frame_.grid, frame_.body.points, frame_.weights, frame_.corner_sum, frame_.dofs());
   }
   Mass lumped() const {
     std::vector<double> diagonal(frame_.size());

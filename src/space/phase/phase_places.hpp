@@ -34,7 +34,7 @@ class PhasePlaces final : public PlaceReader {
  public:
   /// functions: a basis whose local functions belong to single cells; degree: that of the basis. gradient: for u. u
   /// since the phase began and v, (functions × dim). The referenced objects must outlive this one.
-  PhasePlaces(std::unique_ptr<const GridFunctions<dim>> functions, int degree, const Body<K>& body,
+  PhasePlaces(std::unique_ptr<const GridFunctions<dim>> functions, int degree, const Body<K>& body, const Ranks* ranks,
               const DegreesOfFreedom& dofs, GradientOfPoint<K> gradient, std::vector<double> u, std::vector<double> v)
       : functions_(std::move(functions)),
         degree_(degree == 3 ? 4 : degree),
@@ -45,8 +45,9 @@ class PhasePlaces final : public PlaceReader {
         u_(std::move(u)),
         v_(std::move(v)),
         occupied_(static_cast<std::size_t>(functions_->fields() * grid_.cells()), 0),
-        around_(grid_, body.points) {
+        around_(grid_, body.points, ranks) {
     mark_occupied();
+    unite(ranks, std::span(occupied_));
   }
 
   bool holds(ConstVec x) const override {
@@ -90,25 +91,29 @@ class PhasePlaces final : public PlaceReader {
     const Point<dim> at = point_at(x);
     if (!place_of(at)) return;
     std::ranges::fill(out, 0.0);
-    for (const auto& share : around_.fit(at, degree_)) {
-      const auto& material = *body_.materials[static_cast<std::size_t>(body_.points.material_of_cell(share.k))];
-      const auto of_point = material.cauchy(gradient_(share.k, share.p), share.p);
-      for (std::size_t i = 0; i < of_point.size(); ++i) out[i] += share.weight * of_point[i];
-    }
+    const auto shares = around_.fit(at, degree_);
+    const std::vector<double> stresses =
+        around_.values(shares, out.size(), [this](std::size_t k, std::size_t p, Vec of_point) {
+          const auto& material = *body_.materials[static_cast<std::size_t>(body_.points.material_of_cell(k))];
+          std::ranges::copy(material.cauchy(gradient_(k, p), p), of_point.begin());
+        });
+    for (std::size_t s = 0; s < shares.size(); ++s)
+      for (std::size_t i = 0; i < out.size(); ++i) out[i] += shares[s].weight * stresses[out.size() * s + i];
   }
   double history(const std::string& name, ConstVec x) const override {
     const Point<dim> at = point_at(x);
     if (!place_of(at)) return no_value;
     const auto shares = around_.fit(at, degree_);
-    const auto material = static_cast<std::size_t>(body_.points.material_of_cell(shares.front().k));  // shared by all
-                                                                                                      // of them
+    const auto material = static_cast<std::size_t>(shares.front().point.material);  // shared by all of them
     const auto begin = static_cast<std::size_t>(body_.points.material_begin[material]);
     for (const auto& [shown, values] : body_.materials[material]->shown_history()) {
       if (shown != name) continue;
+      const std::vector<double> of_points =
+          around_.values(shares, 1, [&](std::size_t, std::size_t p, Vec out) { out[0] = values[p - begin]; });
       double sum = 0, least = 0;
-      for (const auto& share : shares) {
-        sum += share.weight * values[share.p - begin];
-        least = std::min(least, values[share.p - begin]);
+      for (std::size_t s = 0; s < shares.size(); ++s) {
+        sum += shares[s].weight * of_points[s];
+        least = std::min(least, of_points[s]);
       }
       return std::max(sum, least);
     }
@@ -133,9 +138,7 @@ class PhasePlaces final : public PlaceReader {
   }
 
   // The field that moves the material at x: that of the nearest point.
-  int field_at(const Point<dim>& x) const {
-    return functions_->fields() == 1 ? 0 : body_.points.field_of_cell(around_.nearest(x).k);
-  }
+  int field_at(const Point<dim>& x) const { return functions_->fields() == 1 ? 0 : around_.nearest(x).field; }
   std::size_t place_in_list(int field, int cell) const {
     return static_cast<std::size_t>(field * grid_.cells() + cell);
   }
@@ -192,7 +195,7 @@ class PhasePlaces final : public PlaceReader {
   std::optional<Place> place_of(const Point<dim>& x) const {
     const int field = field_at(x);
     if (const auto cell = cell_with_points(field, x)) return Place{field, *cell};
-    const Cell cell = grid_.cell_of(body_.points.position(around_.nearest(x).p));
+    const Cell cell = grid_.cell_of(around_.nearest(x).x);
     for (int d = 0; d < dim; ++d) {
       if (!(outside(x, cell, d) <= width(cell, d))) return std::nullopt;
     }

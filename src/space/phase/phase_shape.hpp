@@ -40,14 +40,14 @@ class PhaseShapeOf final : public PhaseShape {
   NodalLayout layout() const override { return layout_of(frame_.functions, frame_.dofs()); }
   std::vector<FreePart> free_parts() const override {
     const std::vector<char> sprung = all_.conditions.are_sprung(frame_.dofs().number.size());
-    return find_free_parts<dim>({frame_.functions, frame_.body.points, frame_.weights},
-                                K == Kinematics::axisymmetric ? 1 : 0, frame_.dofs(), sprung,
+    return find_free_parts<dim>(cells_of_parts<dim>(frame_.body.points, frame_.weights, frame_.ranks), frame_.weights,
+                                frame_.functions, K == Kinematics::axisymmetric ? 1 : 0, frame_.dofs(), sprung,
                                 /*as_one=*/frame_.moves_on());
   }
   std::vector<BodyGap> body_gaps() const override {
     if (frame_.problem.bodies.size() < 2) return {};
     return BodyNeighbours<dim>(frame_.problem, frame_.functions, frame_.body.points, frame_.weights,
-                               frame_.body.first_number)
+                               frame_.body.first_number, frame_.ranks)
         .find(frame_.phase == 0);
   }
 

@@ -57,9 +57,9 @@ class PhaseSupportsOf final : public PhaseSupports {
     const PhaseFrame<B, K>& frame = all_.frame;
     std::vector<HeldAxes> held(frame.problem.bodies.size(), HeldAxes{});
     const std::vector<char> is_sprung = all_.conditions.are_sprung(dim * frame.functions_of_grid());
-    const auto bodies =
-        BodyNeighbours<dim>(frame.problem, frame.functions, frame.body.points, frame.weights, frame.body.first_number)
-            .bodies_of_functions();
+    const auto bodies = BodyNeighbours<dim>(frame.problem, frame.functions, frame.body.points, frame.weights,
+                                            frame.body.first_number, frame.ranks)
+                            .bodies_of_functions();
     for (std::size_t f = 0; f < bodies.size(); ++f) {
       for (std::size_t axis = 0; axis < dim; ++axis) {
         const auto unknown = static_cast<int>(dim * f + axis);

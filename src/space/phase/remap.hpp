@@ -43,7 +43,7 @@ class Remap {
         force_(force),
         inertia_(inertia),
         conditions_(conditions),
-        transfer_(frame.problem.phase, !is_undamped(frame.problem.damping.strategy)) {}
+        transfer_(frame.problem.phase, !is_undamped(frame.problem.damping.strategy), frame.ranks) {}
 
   /// Whether the deformation of the points is taken from their positions.
   bool follows_positions() const {
@@ -56,7 +56,7 @@ class Remap {
     constexpr double cells_between = 0.1;
     if (!follows_positions()) return;
     if (!deformation_.has_begun())
-      return deformation_.begin(frame_.body, frame_.weights, frame_.held(), frame_.functions_of_grid());
+      return deformation_.begin(frame_.body, frame_.weights, frame_.corner_sum, frame_.held());
     if (motion_since_deformation_ < cells_between) return;
     motion_since_deformation_ = 0;
     deformation_.apply(frame_.grid, frame_.body, frame_.weights, frame_.corner_sum, frame_.held(), frame_.origin);
@@ -103,7 +103,7 @@ class Remap {
                       "less than a thousand times its size",
                       grid_moves_to, t));
     Grid<dim> next_grid = grid_at<dim>(frame_.problem, grid_moves_to);
-    next_grid.box = NumberedCells<dim>::around_points(frame_.grid, frame_.weights.cells_at(), motion);
+    next_grid.box = NumberedCells<dim>::around_points(frame_.grid, frame_.weights.cells_at(), motion, frame_.ranks);
     const auto work = force_.borrow();
     frame_.unknowns.spread(t, u, work->u);
     const std::vector<double> grid_v = frame_.unknowns.velocities(t, v);
@@ -163,25 +163,29 @@ class Remap {
     };
     transfer_.move(points_, frame_.weights, frame_.corner_sum, inertia_.node_mass(), grid_u, grid_v, start_velocity_,
                    find_cells);
-    if (!all_have_numbers) {  // further than the nodes around it, as slopes may take a point
+    if (!is_so_for_all(frame_.ranks,
+                       all_have_numbers)) {  // further than the nodes around it, as slopes may take a point
       next_grid.box = {};
       const NextCells<dim> of_all(next_grid);
       for_each_block(points_.cells(), [&](std::size_t k) {
         of_all.find(points_, k, frame_.weights.cell_at(k), motion.x, order_.cells());
       });
     }
-    for (std::size_t k = first_outside; k < none; ++k) {
-      for (std::size_t p = points_.begin(k); p < points_.end(k); ++p) {
-        for (int d = 0; d < dim; ++d) {
+    std::string lost;
+    for (std::size_t k = first_outside; k < none && lost.empty(); ++k) {
+      for (std::size_t p = points_.begin(k); p < points_.end(k) && lost.empty(); ++p) {
+        for (int d = 0; d < dim && lost.empty(); ++d) {
           const Axis& axis = next_grid.axes[d];
           const double x = motion.x[d][p];
           if (faces.keeps(d, x)) continue;
-          throw PointLost(fmt::format(
+          lost = fmt::format(
               "{} left the grid at {} = {:.6g}, outside {:.6g} to {:.6g}; expected a larger grid, a support or a wall",
-              to_string(frame_.account().place(k, p)), "xyz"[d], x, axis.min(), axis.max()));
+              to_string(frame_.account().place(k, p)), "xyz"[d], x, axis.min(), axis.max());
         }
       }
     }
+    if (frame_.ranks) lost = first_text(frame_.ranks, lost);
+    if (!lost.empty()) throw PointLost(lost);
     return first_outside < none;
   }
 
@@ -273,10 +277,30 @@ class Remap {
       }
       order_.sort(points_, frame_.grid);
     } else {
+      if (frame_.ranks) let_points_migrate();
       order_.sort_by_cells(points_, frame_.grid);
     }
     std::vector<std::vector<double>>& unused = force_.unused_histories();
     for (std::size_t m = 0; m < unused.size(); ++m) frame_.body.materials[m]->reorder(order_.order(), unused[m]);
+  }
+
+  // Cells are shared out anew once a rank has many more points than others.
+  void let_points_migrate() {
+    const Ranks& ranks = *frame_.ranks;
+    std::vector<PointsOfCell> cells;
+    for (const int cell : order_.cells()) {
+      const std::int64_t place = frame_.cells_of_ranks.place(frame_.grid.cell_at(cell));
+      if (cells.empty() || cells.back().place != place) cells.push_back({place, 0});
+      ++cells.back().points;
+    }
+    double all = 0, most = 0;
+    for (const double points : of_all(&ranks, static_cast<double>(points_.size()))) {
+      all += points;
+      most = std::max(most, points);
+    }
+    if (most > RankCells<dim>::most_over_mean * all / ranks.count())
+      frame_.cells_of_ranks.share_out(joined_lists(&ranks, std::move(cells)));
+    Migration<K>(ranks, frame_.body).run(frame_.cells_of_ranks, frame_.grid, order_.cells());
   }
 
   PhaseFrame<B, K>& frame_;

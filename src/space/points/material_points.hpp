@@ -3,7 +3,9 @@
 
 #include <stillpoint/problem.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -107,6 +109,12 @@ struct PlacedBody {
 template <int Dim>
 PlacedBody<Dim> place_body(const BodySpec& body, const Grid<Dim>& grid, double density, StressState state,
                            bool domains = false);
+
+/// The body of the point with a number; first_number: the number of the first point of each body, and that of all
+/// points.
+inline std::size_t body_of(const std::vector<int>& first_number, int number) {
+  return static_cast<std::size_t>(std::ranges::upper_bound(first_number, number) - first_number.begin()) - 1;
+}
 
 /// Calls visit(occupied cell, point, number of the point) for all points.
 template <int Dim, class Visit>

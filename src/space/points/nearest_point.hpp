@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "space/points/material_points.hpp"
@@ -15,6 +17,14 @@ constexpr int any_field = -1;
 /// A material point and the occupied cell that lists it.
 struct PointInCell {
   std::size_t k = 0, p = 0;
+};
+
+/// How near a point is to a place; of points as near, that comes first whose cell is fewest cells from that of the
+/// place, and then comes first in the grid. By default: there is no point.
+struct Nearness {
+  double square = std::numeric_limits<double>::infinity();  // of the distance [m²]
+  int ring = 0, cell = 0;
+  auto key() const { return std::tuple(square, ring, cell); }
 };
 
 template <int Dim>
@@ -54,6 +64,18 @@ class NearestPoint {
       });
     }
     return found;
+  }
+
+  /// How near to() has come to x.
+  Nearness nearness(const Point<Dim>& x, const PointInCell& found, int field = any_field) const {
+    if (points_.size() == 0 || (field != any_field && points_.field_of_cell(found.k) != field)) return {};
+    Nearness near{.square = 0, .cell = points_.cell[found.k]};
+    const std::array<int, Dim> here = grid_.cell_of(x), there = grid_.cell_at(near.cell);
+    for (int d = 0; d < Dim; ++d) {
+      near.square += square(points_.x[d][found.p] - x[d]);
+      near.ring = std::max(near.ring, std::abs(there[d] - here[d]));
+    }
+    return near;
   }
 
  private:

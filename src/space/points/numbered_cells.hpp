@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "parallel/of_all.hpp"
 #include "space/grid/grid.hpp"
 #include "space/points/material_points.hpp"
 
@@ -45,13 +46,15 @@ class NumberedCells {
   }
 
   /// The numbered cells of the next phase. at: the cells with points in this one, which have moved by `motion` cells at
-  /// most.
-  static Box around_points(const Grid<Dim>& grid, const std::vector<std::array<int, Dim>>& at, double motion) {
+  /// most; ranks: that have points as well.
+  static Box around_points(const Grid<Dim>& grid, const std::vector<std::array<int, Dim>>& at, double motion,
+                           const Ranks* ranks = nullptr) {
     if (grid.box == Box{}) return {};  // most of the grid has been occupied
     Box occupied = nothing;
     for (const auto& cell : at) {
       for (std::size_t d = 0; d < Dim; ++d) include(occupied[d], {cell[d], cell[d] + 1});
     }
+    if (ranks) include_others(*ranks, occupied);
     const int moved = 1 + static_cast<int>(std::ceil(std::min(motion, 1e6)));
     const Box needed = around(grid, occupied, numbered_around / 2 + moved);
     bool fits = true;
@@ -85,6 +88,12 @@ class NumberedCells {
 
   static void include(CellRange& in, const CellRange& more) {
     in = {std::min(in.first, more.first), std::max(in.end, more.end)};
+  }
+  static void include_others(const Ranks& ranks, Box& box) {
+    std::array<int, 2 * Dim> ends;
+    for (std::size_t d = 0; d < Dim; ++d) ends[2 * d] = box[d].first, ends[2 * d + 1] = -box[d].end;
+    ranks.smallest(std::span<int>(ends));
+    for (std::size_t d = 0; d < Dim; ++d) box[d] = {ends[2 * d], -ends[2 * d + 1]};
   }
   static Box around(const Grid<Dim>& grid, Box box, int by) {
     for (std::size_t d = 0; d < Dim; ++d)

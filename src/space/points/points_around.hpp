@@ -5,8 +5,10 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "parallel/of_all.hpp"
 #include "space/points/local_fit.hpp"
 #include "space/points/nearest_point.hpp"
 
@@ -17,18 +19,36 @@ class PointsAround {
   using Cell = std::array<int, Dim>;
 
  public:
-  /// Point p in occupied cell k, and its weight in a fitted value.
+  /// Point p in occupied cell k of a rank.
+  struct Found {
+    std::size_t k = 0, p = 0;
+    int rank = 0, material = 0, field = 0, cell = 0;
+    Point<Dim> x{};
+    double volume = 0;
+  };
+  /// Its weight in a fitted value.
   struct Share {
-    std::size_t k, p;
+    Found point;
     double weight;
   };
 
-  /// Both arguments must outlive this object.
-  PointsAround(const Grid<Dim>& grid, const MaterialPoints<Dim>& points) : grid_(grid), points_(points) {}
+  /// The arguments must outlive this object. Where ranks share the points, all of them ask the same questions.
+  PointsAround(const Grid<Dim>& grid, const MaterialPoints<Dim>& points, const Ranks* ranks)
+      : grid_(grid), points_(points), ranks_(ranks) {}
 
-  PointInCell nearest(const Point<Dim>& x) const {
-    if (!nearest_) nearest_.emplace(points_, grid_);
-    return nearest_->to(x);
+  /// The nearest point, in the order of Nearness.
+  Found nearest(const Point<Dim>& x) const {
+    struct Candidate {
+      Found point;
+      Nearness near;
+    };
+    Candidate mine;
+    if (points_.size() > 0) {
+      if (!nearest_) nearest_.emplace(points_, grid_);
+      const PointInCell at = nearest_->to(x);
+      mine = {found(at), nearest_->nearness(x, at)};
+    }
+    return std::ranges::min(of_all(ranks_, mine), {}, [](const Candidate& one) { return one.near.key(); }).point;
   }
 
   /// The least-squares fit at x, over the points of the cells around, of the material of the nearest one. The
@@ -56,29 +76,28 @@ class PointsAround {
       to[d] = here[d] + 1;
       while (to[d] < along.end && line(to[d]) < x[d] + reach * h[d]) ++to[d];
     }
-    std::vector<PointInCell> around = points_between(from, to);
+    std::vector<Found> around = points_between(from, to);
     if (around.empty()) around.push_back(nearest(x));
-    const auto square_of_distance = [&](const PointInCell& point) {
+    const auto square_of_distance = [&](const Found& point) {
       double sum = 0;
       for (int d = 0; d < Dim; ++d) {
-        const double xi = (points_.x[d][point.p] - x[d]) / h[d];
+        const double xi = (point.x[d] - x[d]) / h[d];
         sum += xi * xi;
       }
       return sum;
     };
-    const PointInCell first = *std::ranges::min_element(around, {}, square_of_distance);
-    const int material = points_.material_of_cell(first.k);
+    const int material = std::ranges::min_element(around, {}, square_of_distance)->material;
     std::vector<Share> shares;
     std::vector<double> xi, weight;
-    for (const auto& [k, p] : around) {
-      if (points_.material_of_cell(k) != material) continue;
-      double w = points_.volume[p];
+    for (const Found& point : around) {
+      if (point.material != material) continue;
+      double w = point.volume;
       for (int d = 0; d < Dim; ++d) {
-        xi.push_back((points_.x[d][p] - x[d]) / h[d]);
+        xi.push_back((point.x[d] - x[d]) / h[d]);
         w *= spline(std::abs(xi.back()));
       }
       weight.push_back(w);
-      shares.push_back({k, p, 0});
+      shares.push_back({point, 0});
     }
     const double largest = *std::ranges::max_element(weight);
     for (double& w : weight) w /= largest;
@@ -87,7 +106,31 @@ class PointsAround {
     return shares;
   }
 
+  /// The values of the points of these shares, (shares × width): value_at(cell, point, out) writes those of a point
+  /// that is here.
+  template <class ValueAt>
+  std::vector<double> values(const std::vector<Share>& shares, std::size_t width, const ValueAt& value_at) const {
+    std::vector<double> values(shares.size() * width);
+    for (std::size_t s = 0; s < shares.size(); ++s)
+      if (shares[s].point.rank == own_rank())
+        value_at(shares[s].point.k, shares[s].point.p, Vec(values).subspan(width * s, width));
+    unite(ranks_, Vec(values));
+    return values;
+  }
+
  private:
+  int own_rank() const { return ranks_ ? ranks_->rank() : 0; }
+  Found found(const PointInCell& at) const {
+    return {at.k,
+            at.p,
+            own_rank(),
+            points_.material_of_cell(at.k),
+            points_.field_of_cell(at.k),
+            points_.cell[at.k],
+            points_.position(at.p),
+            points_.volume[at.p]};
+  }
+
   // Lists the points by their cells: those of cell c begin at list_begin_[c] in list_.
   void list_points() const {
     std::vector<std::size_t> cell_of(points_.size());
@@ -113,8 +156,17 @@ class PointsAround {
   }
 
   // The points of the cells from `from` to the one before `to` along each axis.
-  std::vector<PointInCell> points_between(const Cell& from, const Cell& to) const {
-    return points_.has_domains() || Dim == 3 ? listed_between(from, to) : sorted_between(from, to);
+  std::vector<Found> points_between(const Cell& from, const Cell& to) const {
+    const bool by_lists = points_.has_domains() || Dim == 3;
+    std::vector<Found> all;
+    for (const PointInCell& at : by_lists ? listed_between(from, to) : sorted_between(from, to))
+      all.push_back(found(at));
+    if (!ranks_) return all;
+    all = joined_lists(ranks_, std::move(all));
+    std::ranges::stable_sort(all, {}, [by_lists](const Found& point) {
+      return by_lists ? std::pair(point.cell, point.material) : std::pair(point.material, point.cell);
+    });
+    return all;
   }
   // Finds the points on a line or in the plane, where they are sorted by their cells, which points with domains need
   // not be.
@@ -145,6 +197,7 @@ class PointsAround {
 
   const Grid<Dim>& grid_;
   const MaterialPoints<Dim>& points_;
+  const Ranks* ranks_;
   // Made on demand:
   mutable std::optional<NearestPoint<Dim>> nearest_;
   mutable std::vector<std::size_t> list_begin_;

@@ -13,6 +13,7 @@
 #include "scene/body_depth.hpp"
 #include "scene/grid_lines.hpp"
 #include "space/grid/grid.hpp"
+#include "space/points/material_points.hpp"
 
 namespace stillpoint {
 
@@ -35,10 +36,9 @@ class SurfaceDepths {
     if (!is_new) return found->second;
     Point<Dim> X = x;
     if (!origin_.empty()) std::copy_n(origin_.begin() + static_cast<std::ptrdiff_t>(Dim) * number, Dim, X.begin());
-    const auto body = std::ranges::upper_bound(first_number_, number) - first_number_.begin() - 1;
     const auto axis = static_cast<std::size_t>(axis_of(face));
     found->second =
-        bodies_[static_cast<std::size_t>(body)].along(X, axis, is_upper(face), 2 * longest_cell(problem_.grid, axis));
+        bodies_[body_of(first_number_, number)].along(X, axis, is_upper(face), 2 * longest_cell(problem_.grid, axis));
     return found->second;
   }
 

@@ -14,6 +14,7 @@
 #include "largest.hpp"
 #include "space/boundary/boundary_conditions.hpp"
 #include "space/grid/scene_grid.hpp"
+#include "space/kernels/corner_sum.hpp"
 #include "space/kernels/point_weights.hpp"
 #include "space/points/make_body.hpp"
 
@@ -134,6 +135,10 @@ class LoadedBlock {
     for (std::size_t k = 0; k < body_.points.cells(); ++k) {
       for (int a = 0; a < Basis::per_cell; ++a) reached[static_cast<std::size_t>(weights_.function(k, a))] = 1;
     }
+    std::vector<int> function_of_corner;
+    for (std::size_t k = 0; k < body_.points.cells(); ++k)
+      for (int a = 0; a < Basis::per_cell; ++a) function_of_corner.push_back(weights_.function(k, a));
+    corner_sum_.rebuild(function_of_corner, functions);
     held_size_ = 2 * functions;
     held_ = HeldUnknowns(held_size_, 0);
     dofs_.emplace(reached, 2, std::vector<int>{});
@@ -143,7 +148,7 @@ class LoadedBlock {
     for (const auto& load : loads_) load->begin_phase(parts(), constant_force_);
   }
   PhaseParts<2> parts() const {
-    return {grid_, functions_, body_.points, weights_, held_, *dofs_, node_mass_, *mass_, false};
+    return {grid_, functions_, body_.points, weights_, corner_sum_, held_, *dofs_, node_mass_, *mass_, false};
   }
 
   const Scene scene_;
@@ -153,6 +158,7 @@ class LoadedBlock {
   BoundaryConditions<2> loads_;
   PointOrder<2> order_;
   PointWeights<B, K> weights_;
+  CornerSum corner_sum_;
   HeldUnknowns held_;
   std::size_t held_size_ = 0;
   std::optional<DegreesOfFreedom> dofs_;

@@ -91,25 +91,3 @@ TEST_CASE("a value is carried by one function alone at a corner of a grid of spl
   REQUIRE(hermite.interpolating({1.0, 1.0}).has_value());
   CHECK(hermite.is_value(*hermite.interpolating({1.0, 1.0})));
 }
-
-TEST_CASE("a force at a point is shared by the functions of its cell, whatever the basis, and none of it is lost") {
-  const Body<2> body;
-  PointWeights<BSpline<2>, Kinematics::plane> weights;
-  weights.rebuild(body.grid, body.points);
-  const FunctionsOfBasis<BSpline<2>, 2> functions(body.grid);
-  const DegreesOfFreedom dofs(std::vector<char>(static_cast<std::size_t>(functions.count()), 1), 2, {});
-  std::vector<double> F(dofs.size(), 0.0);
-  const PointFunctions<2>& seen = weights;
-  seen.add_at_functions(
-      1, 1, [](int i) { return i == 0 ? 3.0 : -2.0; }, dofs, F);
-  double x = 0, y = 0, moment = 0;
-  for (int f = 0; f < functions.count(); ++f) {
-    const auto k = static_cast<std::size_t>(2 * f);
-    x += F[k];
-    y += F[k + 1];
-    moment += functions.centre(f, 0) * F[k + 1] - functions.centre(f, 1) * F[k];
-  }
-  CHECK(x == Approx(3));
-  CHECK(y == Approx(-2));
-  CHECK(moment == Approx(body.points.x[0][1] * -2 - body.points.x[1][1] * 3));
-}
