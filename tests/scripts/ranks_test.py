@@ -14,7 +14,7 @@ from pathlib import Path
 from claims import ROOT, call, check_the_claim, claim
 
 STILLPOINT = Path(sys.argv[3]).parent / "stillpoint"
-AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_mpi_yield_when_idle": "1"}
 
 
 def words(count, scene, out, overrides, threads=1):
@@ -46,48 +46,44 @@ def figures_of(folder):
     return {key: value for key, value in summary.items() if key not in left_out}
 
 
-SHORT_SLOPE = ("slope.toml", "stop.time=0.6", "output.every=0.1")
-
-
 @claim("a slope that a wall lets go leaves the same history on any number of ranks, though its points change them")
 def _(folder):
-    check_same(folder, *SHORT_SLOPE, "phase.max_motion=0.02")
+    check_same(folder, "slope.toml", "stop.time=0.5", "output.every=0.1", "phase.max_motion=0.02", counts=(2, 4))
 
 
 @claim("bodies of a single phase and in phases, on a line, in the plane, around an axis and in space, do so too")
 def _(folder):
     scenes = (
-        ("bar.toml",),
-        ("cantilever.toml",),
-        ("cylinder.toml",),
-        ("hard/column_in_phases.toml", "stop.steps=300", "phase.quadrature=points"),
-        ("ladder/swing_in_phases.toml", "stop.steps=150"),
-        ("hard/spinning_cube.toml", "stop.steps=60"),
+        ("bar.toml", "stop.steps=100"),
+        ("cylinder.toml", "stop.steps=100"),
+        ("hard/column_in_phases.toml", "stop.steps=200", "phase.quadrature=points"),
+        ("ladder/swing_in_phases.toml", "stop.steps=100"),
+        ("hard/spinning_cube.toml", "stop.steps=40"),
     )
     for scene, *overrides in scenes:
-        status = 3 if any(word.startswith("stop.steps") for word in overrides) else 0
         name = folder / scene.replace("/", "-")
         name.mkdir()
-        check_same(name, scene, *overrides, counts=(3,), status=status)
+        check_same(name, scene, *overrides, counts=(3,), status=3)
 
 
 @claim("rigid bodies press on what ranks share as they do on a body of one process")
 def _(folder):
-    check_same(folder, "sinking_footing.toml", "stop.time=0.5", "output.every=0.1", counts=(2, 3))
+    check_same(folder, "sinking_footing.toml", "stop.steps=150", counts=(2,), status=3)
 
 
 @claim("a matrix is the same on any number of ranks: critical damping, Newton's method and a consistent mass take it")
 def _(folder):
-    for k, overrides in enumerate((("damping.strategy=viscous", "damping.c=critical"), ("solve.method=newton",), ("mass.kind=consistent",))):
+    ways = (("damping.c=critical", "stop.steps=50"), ("solve.method=newton",), ("mass.kind=consistent", "stop.steps=50"))
+    for k, overrides in enumerate(ways):
         (folder / str(k)).mkdir()
-        check_same(folder / str(k), "cantilever.toml", *overrides, counts=(3,))
+        check_same(folder / str(k), "cantilever.toml", *overrides, counts=(3,), status=3 if len(overrides) > 1 else 0)
 
 
 @claim("a run that is killed goes on from its checkpoint on any number of ranks, whatever number had left it")
 def _(folder):
-    scene = ("slope.toml", "stop.time=0.5", "output.every=0.05", "checkpoint.every_steps=20", "phase.max_motion=0.02")
+    scene = ("slope.toml", "stop.time=0.4", "output.every=0.05", "checkpoint.every_steps=20", "phase.max_motion=0.02")
     assert run(1, scene[0], folder / "whole", *scene[1:]).returncode == 0
-    for before, after in ((3, 1), (1, 2), (2, 3)):
+    for before, after in ((3, 1), (1, 2)):
         out = folder / f"{before}-{after}"
         launched = subprocess.Popen(words(before, scene[0], out, scene[1:]), env=os.environ | AS_ROOT, stdout=subprocess.DEVNULL,
                                     stderr=subprocess.DEVNULL)  # fmt: skip
@@ -106,10 +102,10 @@ def _(folder):
 
 @claim("bodies that press on each other do so on any number of ranks, as do loads that a displacement drives")
 def _(folder):
-    for scene, *overrides in (("ladder/stacked_blocks.toml",), ("footing_limit.toml", "stop.steps=200")):
+    for scene, *overrides in (("ladder/stacked_blocks.toml",), ("footing_limit.toml", "stop.steps=100")):
         name = folder / Path(scene).stem
         name.mkdir()
-        check_same(name, scene, *overrides, counts=(2, 3), status=3 if overrides else 0)
+        check_same(name, scene, *overrides, counts=(2,), status=3 if overrides else 0)
 
 
 @claim("what ranks do not share is refused once, by its name, with status 2, and nothing is written")

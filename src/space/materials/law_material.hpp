@@ -73,11 +73,11 @@ class LawMaterialBase : public PointMaterial<kinematics(Law::state)> {
     std::size_t first = 0, groups = count / group;
     while (true) {
       asm("" : "+r"(first), "+r"(groups));  // the compiler does not know which pass it is
-      const std::size_t end = first + group * groups;
+      const std::size_t n = group * groups;
 #pragma omp simd reduction(+ : sum)
-      for (std::size_t q = first; q < end; ++q)
-        sum += point(q);  // all locals are point's own, or GCC does not vectorise
-      if (end == count) return sum;
+      for (std::size_t q = 0; q < n; ++q)
+        sum += point(first + q);  // all locals are point's own, or GCC does not vectorise
+      if (first + n == count) return sum;
       first = count - group;
       groups = 1;
     }
