@@ -19,7 +19,7 @@ namespace stillpoint {
 /// The place of an occupied cell in the order of all, whatever ranks they belong to.
 struct CellPlace {
   int material = 0, cell = 0;
-  auto operator<=>(const CellPlace&) const = default;
+  auto operator<=>(const CellPlace&) const = default;  // NOLINT(modernize-use-nullptr): of the compiler's own 0
 };
 
 template <int Dim>

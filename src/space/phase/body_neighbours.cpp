@@ -50,7 +50,7 @@ std::vector<std::vector<std::size_t>> BodyNeighbours<Dim>::bodies_of_functions()
   struct Reach {
     int function;
     std::size_t body;
-    auto operator<=>(const Reach&) const = default;
+    auto operator<=>(const Reach&) const = default;  // NOLINT(modernize-use-nullptr): of the compiler's own 0
   };
   std::vector<Reach> all;
   for (std::size_t k = 0; k < points_.cells(); ++k) {

@@ -108,8 +108,9 @@ class PhasePlaces final : public PlaceReader {
     const auto begin = static_cast<std::size_t>(body_.points.material_begin[material]);
     for (const auto& [shown, values] : body_.materials[material]->shown_history()) {
       if (shown != name) continue;
-      const std::vector<double> of_points =
-          around_.values(shares, 1, [&](std::size_t, std::size_t p, Vec out) { out[0] = values[p - begin]; });
+      const std::vector<double> of_points = around_.values(
+          shares, 1,
+          [begin, of_material = values](std::size_t, std::size_t p, Vec out) { out[0] = of_material[p - begin]; });
       double sum = 0, least = 0;
       for (std::size_t s = 0; s < shares.size(); ++s) {
         sum += shares[s].weight * of_points[s];
