@@ -206,6 +206,11 @@ int run(const RunArguments& arguments) {
   watch_for_interrupt();
   const Copies copies = launched_copies();
   if (copies.count == 1) return run_alone(arguments, nullptr);
+  const char* const other = "a launcher of the MPI that this program is built with, Open MPI";
+  if (!std::getenv("PMIX_RANK")) {  // by which Open MPI's launchers, and Slurm's for it, tell a copy its rank
+    refuses(copies, other);
+    return bad_input;
+  }
   std::shared_ptr<const Ranks> ranks;
   try {
     ranks = start_ranks();
@@ -214,7 +219,7 @@ int run(const RunArguments& arguments) {
     return bad_input;
   }
   if (ranks->count() != copies.count) {
-    refuses(copies, "a launcher of the MPI that this program is built with");
+    refuses(copies, other);
     return bad_input;
   }
   return run_as_rank(arguments, ranks);
