@@ -12,7 +12,7 @@ struct Copies {
 Copies launched_copies();
 
 /// True, with a message on standard error by the first of them, if there are several copies: all would write into the
-/// same folder. instead: what to take, "run, whose copies share …".
+/// same folder. instead: what to take, "one copy, whose --threads …".
 bool refuses(const Copies& copies, const char* instead);
 
 }  // namespace stillpoint::command

@@ -159,7 +159,7 @@ class FolderOfNobody {
   std::filesystem::path path_;
 };
 
-int run_alone(const RunArguments& arguments, const std::shared_ptr<const Ranks>& ranks) {
+int run_scene(const RunArguments& arguments, const std::shared_ptr<const Ranks>& ranks) {
   const bool resumes = !arguments.resume.empty();
   const std::filesystem::path checkpoint = resumes ? checkpoint_of(arguments.resume) : std::filesystem::path();
   const Scene scene = resumes ? load_scene_of(checkpoint) : load_scene(arguments.scene.file, arguments.scene.overrides);
@@ -173,10 +173,8 @@ int run_alone(const RunArguments& arguments, const std::shared_ptr<const Ranks>&
   const Summary summary = stillpoint::run(scene, options);
   line.finish();
   if (!arguments.quiet) print_table(summary, out);
-  if (summary.exit_status != 0) {
-    if (!ranks || ranks->rank() == 0)
-      fmt::print(stderr, "stillpoint: {}: {}\n", to_string(summary.status), summary.reason);
-  }
+  if (summary.exit_status != 0 && (!ranks || ranks->rank() == 0))
+    fmt::print(stderr, "stillpoint: {}: {}\n", to_string(summary.status), summary.reason);
   return summary.exit_status;
 }
 
@@ -191,7 +189,7 @@ int run_as_rank(RunArguments arguments, const std::shared_ptr<const Ranks>& rank
       const bool resumes = !arguments.resume.empty();
       arguments.out = folder.emplace(resumes ? checkpoint_of(arguments.resume).parent_path() : "").path();
     }
-    return run_alone(arguments, ranks);
+    return run_scene(arguments, ranks);
   } catch (...) {
     const auto [status, message] = failure_of_exception();
     folder.reset();
@@ -205,7 +203,7 @@ int run_as_rank(RunArguments arguments, const std::shared_ptr<const Ranks>& rank
 int run(const RunArguments& arguments) {
   watch_for_interrupt();
   const Copies copies = launched_copies();
-  if (copies.count == 1) return run_alone(arguments, nullptr);
+  if (copies.count == 1) return run_scene(arguments, nullptr);
   const char* const other = "a launcher of the MPI that this program is built with, Open MPI";
   if (!std::getenv("PMIX_RANK")) {  // by which Open MPI's launchers, and Slurm's for it, tell a copy its rank
     refuses(copies, other);

@@ -68,9 +68,9 @@ Model RunState::set_up() {
   const StopScope scope(asks_to_end());
   try {
     heed_stop_request();
+    if (options.ranks) refuse_what_ranks_lack(scene);
     if (stage.number == 0 && !scene.stages.empty()) check_ground_of_later_stages(scene);
     if (!scene.initial_from.empty() && !stage.carried) stage.carried = points_of_other_run(scene);
-    if (options.ranks) refuse_what_ranks_lack(scene);
     return make_model(scene, require_memory(make_plan(scene)), stage.carried ? nullptr : options.store,
                       {.carried = stage.carried.get(), .t = stage.t, .ranks = options.ranks.get()});
   } catch (const Stopped&) {

@@ -54,11 +54,8 @@ class EndRequest {
     if (!ranks) return asked();
     if (asked()) ranks->wish_for_end();
     if (!ranks->someone_wishes_end()) return false;
-    struct Answer {
-      RunStatus status;
-    };
     const std::string reason = first_text(ranks, request_.reason);
-    for (const auto& [status] : of_all(ranks, Answer{request_.status})) {
+    for (const RunStatus status : of_all(ranks, request_.status)) {
       if (status == RunStatus::running) continue;
       request_ = {status, reason};
       break;
