@@ -29,13 +29,17 @@ requires(std::is_trivially_copyable_v<T>) void append_from(const Bytes& bytes, s
   if (!bytes.empty()) std::memcpy(values.data() + before, bytes.data(), bytes.size());
 }
 
+/// What each rank has to say, told to all.
+inline std::vector<Bytes> told_to_all(const Ranks& ranks, const Bytes& mine) {
+  return ranks.deliver(std::vector<Bytes>(static_cast<std::size_t>(ranks.count()), mine));
+}
+
 /// The lists of all ranks, one after the other.
 template <class T>
 requires(std::is_trivially_copyable_v<T>) std::vector<T> joined_lists(const Ranks* ranks, std::vector<T> mine) {
   if (!ranks) return mine;
   std::vector<T> all;
-  const std::vector<Bytes> same(static_cast<std::size_t>(ranks->count()), bytes_of(mine));
-  for (const Bytes& from : ranks->deliver(same)) append_from(from, all);
+  for (const Bytes& from : told_to_all(*ranks, bytes_of(mine))) append_from(from, all);
   return all;
 }
 /// What each rank has.
@@ -43,19 +47,16 @@ template <class T>
 requires(std::is_trivially_copyable_v<T>) std::vector<T> of_all(const Ranks* ranks, const T& mine) {
   return joined_lists(ranks, std::vector<T>{mine});
 }
-inline std::vector<std::string> texts_of_all(const Ranks* ranks, const std::string& mine) {
-  if (!ranks) return {mine};
-  std::vector<std::string> all;
-  const Bytes bytes(mine.begin(), mine.end());
-  for (const Bytes& from : ranks->deliver(std::vector<Bytes>(static_cast<std::size_t>(ranks->count()), bytes)))
-    all.emplace_back(from.begin(), from.end());
-  return all;
-}
-/// The first text that is not empty, of the ranks in their order.
-inline std::string first_text(const Ranks* ranks, const std::string& mine) {
-  for (std::string& text : texts_of_all(ranks, mine))
-    if (!text.empty()) return text;
-  return {};
+/// The text that comes first, of those that are not empty: by what each rank has its text at, or by their order.
+template <class At = int>
+std::string first_text(const Ranks* ranks, const std::string& mine, const At& at = {}) {
+  if (!ranks) return mine;
+  const std::vector<Bytes> texts = told_to_all(*ranks, {mine.begin(), mine.end()});
+  const std::vector<At> all = of_all(ranks, at);
+  std::size_t first = texts.size();
+  for (std::size_t r = 0; r < texts.size(); ++r)
+    if (!texts[r].empty() && (first == texts.size() || all[r] < all[first])) first = r;
+  return first == texts.size() ? std::string() : std::string(texts[first].begin(), texts[first].end());
 }
 
 inline bool is_so_for_all(const Ranks* ranks, bool here) {

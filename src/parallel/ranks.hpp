@@ -19,7 +19,7 @@ struct Parcel {
   std::size_t count = 0;
 };
 
-/// A function of this class is called by all ranks, in the same order, and returns when they have heard each other.
+/// What is not about wishes is called by all ranks, in the same order, and returns when they have heard each other.
 class Ranks {
  public:
   /// here: how many of them run on this machine.

@@ -26,37 +26,35 @@ std::vector<double> load_on_functions(const PhaseParts<Dim>& phase, const Force&
     }
   }
   std::vector<double> load(Dim * phase.corner_sum.functions());
-  phase.corner_sum.for_functions(of_corners.data(), Dim, [&](std::size_t f) {
-    const auto sum = phase.corner_sum.template sum<Dim>(f, of_corners.data());
-    for (int i = 0; i < Dim; ++i) load[Dim * f + static_cast<std::size_t>(i)] = sum[i];
-  });
-  phase.corner_sum.complete(load.data(), Dim);
+  phase.corner_sum.template sum_at_functions<Dim>(of_corners.data(), load.data());
   return load;
+}
+
+/// Calls add(dof, share) with each degree of freedom's share of the loads.
+template <int Dim, class Force, class Add>
+void for_point_loads(const PhaseParts<Dim>& phase, const Force& b, const Add& add) {
+  const std::vector<double> load = load_on_functions(phase, b);
+  for (std::size_t unknown = 0; unknown < load.size(); ++unknown) {
+    if (load[unknown] == 0) continue;
+    phase.dofs.for_sources(static_cast<int>(unknown),
+                           [&](int, int dof, double share) { add(dof, share * load[unknown]); });
+  }
 }
 
 /// F += the load on the free degrees of freedom, (n).
 template <int Dim, class Force>
 void add_point_loads(const PhaseParts<Dim>& phase, const Force& b, Vec F) {
-  const std::vector<double> load = load_on_functions(phase, b);
-  for (std::size_t unknown = 0; unknown < load.size(); ++unknown) {
-    if (load[unknown] == 0) continue;
-    phase.dofs.for_sources(static_cast<int>(unknown), [&](int, int dof, double share) {
-      if (phase.dofs.is_free(dof)) F[static_cast<std::size_t>(dof)] += share * load[unknown];
-    });
-  }
+  for_point_loads(phase, b, [&](int dof, double load) {
+    if (phase.dofs.is_free(dof)) F[static_cast<std::size_t>(dof)] += load;
+  });
 }
 
 /// F_s += the load on the prescribed degrees of freedom, (prescribed).
 template <int Dim, class Force>
 void add_point_loads_on_supports(const PhaseParts<Dim>& phase, const Force& b, Vec F_s) {
-  const std::vector<double> load = load_on_functions(phase, b);
-  const std::size_t n = phase.dofs.size();
-  for (std::size_t unknown = 0; unknown < load.size(); ++unknown) {
-    if (load[unknown] == 0) continue;
-    phase.dofs.for_sources(static_cast<int>(unknown), [&](int, int dof, double share) {
-      if (!phase.dofs.is_free(dof)) F_s[static_cast<std::size_t>(dof) - n] += share * load[unknown];
-    });
-  }
+  for_point_loads(phase, b, [&](int dof, double load) {
+    if (!phase.dofs.is_free(dof)) F_s[static_cast<std::size_t>(dof) - phase.dofs.size()] += load;
+  });
 }
 
 }  // namespace stillpoint

@@ -43,6 +43,16 @@ class CornerSum {
   bool complete(double* sums, std::size_t components, bool is_good = true) const {
     return shared_ ? shared_->gather(sums, components, is_good) : is_good;
   }
+  /// Sums values, (corners × Components + slack), at the functions, (functions × Components), with those of all ranks.
+  /// Returns whether these are good, as complete() does.
+  template <int Components>
+  bool sum_at_functions(double* values, double* sums, bool is_good = true) const {
+    for_functions(values, Components, [&](std::size_t f) {
+      const auto total = sum<Components>(f, values);
+      for (int i = 0; i < Components; ++i) sums[Components * f + i] = total[i];
+    });
+    return complete(sums, Components, is_good);
+  }
   /// Where ranks share the cells; null: they do not.
   const SharedCorners* shared() const { return shared_.get(); }
   const Ranks* ranks() const { return ranks_; }

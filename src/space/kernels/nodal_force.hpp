@@ -195,11 +195,7 @@ class NodalForce {
   bool sum_shared_corners(Work& work, bool is_answered, const Take& take) const {
     std::vector<double>& sums = work.at_functions;
     sums.resize(dim * corner_sum_->functions());
-    corner_sum_->for_functions(work.corner.data(), dim, [&](std::size_t f) {
-      const auto total = corner_sum_->template sum<dim>(f, work.corner.data());
-      for (int i = 0; i < dim; ++i) sums[dim * f + i] = total[i];
-    });
-    const bool is_good = corner_sum_->complete(sums.data(), dim, is_answered);
+    const bool is_good = corner_sum_->template sum_at_functions<dim>(work.corner.data(), sums.data(), is_answered);
     const std::vector<int>& reached = corner_sum_->shared()->functions_of_all();
     for_each_block(reached.size(), [&](std::size_t k) {
       const auto f = static_cast<std::size_t>(reached[k]);

@@ -30,11 +30,7 @@ std::vector<double> nodal_sum(const MaterialPoints<dimensions(K)>& points, const
     std::copy(corners.begin(), corners.end(), of_corners.begin() + static_cast<std::ptrdiff_t>(corners.size() * k));
   });
   std::vector<double> sums(Components * corner_sum.functions());
-  corner_sum.for_functions(of_corners.data(), Components, [&](std::size_t f) {
-    const auto total = corner_sum.sum<Components>(f, of_corners.data());
-    for (int i = 0; i < Components; ++i) sums[Components * f + i] = total[i];
-  });
-  corner_sum.complete(sums.data(), Components);
+  corner_sum.sum_at_functions<Components>(of_corners.data(), sums.data());
   return sums;
 }
 template <int Components, AxisBasis B, Kinematics K, class AddCell>

@@ -44,7 +44,8 @@ SharedCorners::SharedCorners(const Ranks& ranks, const std::vector<int>& functio
 }
 
 void SharedCorners::exchange(double* values, std::size_t components) const {
-  std::vector<Parcel> to, from;
+  to_.clear();
+  from_.clear();
   std::size_t size = 0;
   for (const std::vector<std::size_t>& corners : sent_) size += corners.size() * components;
   packed_.resize(std::max(packed_.size(), size));
@@ -52,20 +53,21 @@ void SharedCorners::exchange(double* values, std::size_t components) const {
   double* received = values + corners_ * components;
   for (std::size_t rank = 0; rank < sent_.size(); ++rank) {
     if (const std::vector<std::size_t>& corners = sent_[rank]; !corners.empty()) {
-      to.push_back({static_cast<int>(rank), next, corners.size() * components});
+      to_.push_back({static_cast<int>(rank), next, corners.size() * components});
       for (const std::size_t c : corners) next = std::copy_n(values + c * components, components, next);
     }
-    if (received_[rank] > 0) from.push_back({static_cast<int>(rank), received, received_[rank] * components});
+    if (received_[rank] > 0) from_.push_back({static_cast<int>(rank), received, received_[rank] * components});
     received += received_[rank] * components;
   }
-  ranks_.exchange(to, from);
+  ranks_.exchange(to_, from_);
 }
 
 bool SharedCorners::gather(double* values, std::size_t components, bool is_good) const {
   constexpr std::size_t signals = 1;  // behind the values of each rank
   gathered_.resize(functions_.size() * components + signals * sent_.size());
   const auto mine = static_cast<std::size_t>(ranks_.rank());
-  std::vector<std::size_t> begin;
+  std::vector<std::size_t>& begin = gathered_begin_;
+  begin.clear();
   for (std::size_t rank = 0; rank < begin_.size(); ++rank) begin.push_back(begin_[rank] * components + signals * rank);
   const auto of_function = [&](std::size_t k) { return values + static_cast<std::size_t>(functions_[k]) * components; };
   double* own = gathered_.data() + begin[mine];

@@ -78,7 +78,10 @@ class SharedCorners {
   std::vector<std::vector<std::size_t>> sent_;  // own corners that each rank is sent
   std::vector<std::size_t> received_;           // number of corners from each rank
   std::vector<Other> others_;
-  mutable std::vector<double> packed_, gathered_;  // work arrays
+  // Work arrays, so that nothing is allocated in an evaluation.
+  mutable std::vector<double> packed_, gathered_;
+  mutable std::vector<Parcel> to_, from_;
+  mutable std::vector<std::size_t> gathered_begin_;
 };
 
 }  // namespace stillpoint

@@ -147,7 +147,7 @@ PlaceInBody BodyAccount<K>::place_of(std::size_t number) const {
   for_points(body_.points, [&](std::size_t k, std::size_t p, std::size_t n) {
     if (n == number) at = place(k, p);
   });
-  return place_of_ranks(ranks_, at);
+  return place_of_ranks(ranks_, at, {});
 }
 
 template <Kinematics K>

@@ -45,16 +45,18 @@ class PhaseDiagnosisOf final : public PhaseDiagnosis {
     for (int d = 0; d < dim; ++d) at.position.push_back(frame_.functions.centre(function, d));
     double largest = -1;
     PlaceInBody beside;
+    CellPlace cell;
     frame_.for_points([&](std::size_t k, std::size_t p, std::size_t) {
       const auto N = frame_.weights.N(k, p);
       for (int a = 0; a < per_cell; ++a) {
         if (frame_.weights.function(k, a) != function || !(std::abs(N[a]) > largest)) continue;
         largest = std::abs(N[a]);
         beside = frame_.account().place(k, p);
+        cell = place_of_cell(frame_.body.points, k);
       }
     });
     if (largest < largest_of_all(frame_.ranks, largest)) beside = {};
-    beside = place_of_ranks(frame_.ranks, beside);
+    beside = place_of_ranks(frame_.ranks, beside, cell);
     at.material_point = beside.what;
     at.cell = beside.cell;
     return at;

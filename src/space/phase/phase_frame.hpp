@@ -55,16 +55,7 @@ struct PhaseFrame {
   void share_out_points() {
     if (!ranks) return;
     cells_of_ranks = RankCells<dim>(grid, ranks->count());
-    cells_of_ranks.share_out(points_of_cells());
-    Migration<K>(*ranks, body).keep_own(cells_of_ranks, grid);
-  }
-  /// How many points the cells of this rank hold.
-  std::vector<PointsOfCell> points_of_cells() const {
-    std::vector<PointsOfCell> all;
-    for (std::size_t k = 0; k < body.points.cells(); ++k)
-      all.push_back({cells_of_ranks.place(grid.cell_at(body.points.cell[k])),
-                     static_cast<std::int64_t>(body.points.end(k) - body.points.begin(k))});
-    return all;
+    Migration<K>(*ranks, body).share_out(cells_of_ranks, grid);
   }
 
   /// Evaluates the weights of the points where they are now, and the sums over the points at the grid's functions.

@@ -8,12 +8,13 @@
 namespace stillpoint {
 
 // As a text of four lines: words, the point beside it, the position, the cell.
-PlaceInBody place_of_ranks(const Ranks* ranks, const PlaceInBody& mine) {
+PlaceInBody place_of_ranks(const Ranks* ranks, const PlaceInBody& mine, const CellPlace& cell) {
   if (!ranks) return mine;
-  std::istringstream text(
-      first_text(ranks, mine.what.empty() ? ""
-                                          : fmt::format("{}\n{}\n{:a}\n{}", mine.what, mine.material_point,
-                                                        fmt::join(mine.position, " "), fmt::join(mine.cell, " "))));
+  const std::string mine_as_text = mine.what.empty()
+                                       ? ""
+                                       : fmt::format("{}\n{}\n{:a}\n{}", mine.what, mine.material_point,
+                                                     fmt::join(mine.position, " "), fmt::join(mine.cell, " "));
+  std::istringstream text(first_text(ranks, mine_as_text, cell));
   PlaceInBody place;
   std::string line;
   std::getline(text, place.what);

@@ -3,11 +3,11 @@
 
 #include <stillpoint/place_in_body.hpp>
 
-#include "parallel/of_all.hpp"
+#include "space/kernels/shared_corners.hpp"
 
 namespace stillpoint {
 
-/// The place of the first rank that knows it; a place without words is not known.
-PlaceInBody place_of_ranks(const Ranks* ranks, const PlaceInBody& mine);
+/// The place in the cell that comes first, of those that ranks know; a place without words is not known.
+PlaceInBody place_of_ranks(const Ranks* ranks, const PlaceInBody& mine, const CellPlace& cell);
 
 }  // namespace stillpoint

@@ -163,8 +163,8 @@ class Remap {
     };
     transfer_.move(points_, frame_.weights, frame_.corner_sum, inertia_.node_mass(), grid_u, grid_v, start_velocity_,
                    find_cells);
-    if (!is_so_for_all(frame_.ranks,
-                       all_have_numbers)) {  // further than the nodes around it, as slopes may take a point
+    // Slopes may take a point further than the nodes around it.
+    if (!is_so_for_all(frame_.ranks, all_have_numbers)) {
       next_grid.box = {};
       const NextCells<dim> of_all(next_grid);
       for_each_block(points_.cells(), [&](std::size_t k) {
@@ -172,7 +172,9 @@ class Remap {
       });
     }
     std::string lost;
+    CellPlace lost_from;
     for (std::size_t k = first_outside; k < none && lost.empty(); ++k) {
+      lost_from = place_of_cell(points_, k);
       for (std::size_t p = points_.begin(k); p < points_.end(k) && lost.empty(); ++p) {
         for (int d = 0; d < dim && lost.empty(); ++d) {
           const Axis& axis = next_grid.axes[d];
@@ -184,7 +186,7 @@ class Remap {
         }
       }
     }
-    if (frame_.ranks) lost = first_text(frame_.ranks, lost);
+    lost = first_text(frame_.ranks, lost, lost_from);
     if (!lost.empty()) throw PointLost(lost);
     return first_outside < none;
   }
@@ -277,30 +279,15 @@ class Remap {
       }
       order_.sort(points_, frame_.grid);
     } else {
-      if (frame_.ranks) let_points_migrate();
+      if (frame_.ranks) {
+        Migration<K> migration(*frame_.ranks, frame_.body);
+        migration.even_out(frame_.cells_of_ranks, frame_.grid, order_.cells());
+        migration.run(frame_.cells_of_ranks, frame_.grid, order_.cells());
+      }
       order_.sort_by_cells(points_, frame_.grid);
     }
     std::vector<std::vector<double>>& unused = force_.unused_histories();
     for (std::size_t m = 0; m < unused.size(); ++m) frame_.body.materials[m]->reorder(order_.order(), unused[m]);
-  }
-
-  // Cells are shared out anew once a rank has many more points than others.
-  void let_points_migrate() {
-    const Ranks& ranks = *frame_.ranks;
-    std::vector<PointsOfCell> cells;
-    for (const int cell : order_.cells()) {
-      const std::int64_t place = frame_.cells_of_ranks.place(frame_.grid.cell_at(cell));
-      if (cells.empty() || cells.back().place != place) cells.push_back({place, 0});
-      ++cells.back().points;
-    }
-    double all = 0, most = 0;
-    for (const double points : of_all(&ranks, static_cast<double>(points_.size()))) {
-      all += points;
-      most = std::max(most, points);
-    }
-    if (most > RankCells<dim>::most_over_mean * all / ranks.count())
-      frame_.cells_of_ranks.share_out(joined_lists(&ranks, std::move(cells)));
-    Migration<K>(ranks, frame_.body).run(frame_.cells_of_ranks, frame_.grid, order_.cells());
   }
 
   PhaseFrame<B, K>& frame_;

@@ -26,6 +26,10 @@ class Migration {
   /// All arguments must outlive this object.
   Migration(const Ranks& ranks, Body<K>& body) : ranks_(ranks), body_(body), points_(body.points) {}
 
+  /// Shares out cells anew if a rank has many more points than others; cells: as in run().
+  void even_out(RankCells<dim>& cells_of_ranks, const Grid<dim>& grid, const std::vector<int>& cells) const {
+    if (is_uneven()) cells_of_ranks.share_out(joined_lists(&ranks_, points_of_cells(cells_of_ranks, grid, cells)));
+  }
   /// Lets each point go to the rank of the cell that it lies in now; cells: their numbers in the grid, (points), which
   /// become those of the points that are here afterwards. The points are as they were sorted before they moved on, and
   /// have to be sorted anew.
@@ -36,6 +40,11 @@ class Migration {
     exchange([&rank](std::size_t p, int to) { return rank[p] == to; }, cells);
   }
 
+  /// Shares out the cells of the points, all of which each rank has, and leaves it with those of its own.
+  void share_out(RankCells<dim>& cells_of_ranks, const Grid<dim>& grid) {
+    cells_of_ranks.share_out(points_of_cells(cells_of_ranks, grid, cells_of_points()));
+    keep_own(cells_of_ranks, grid);
+  }
   /// Gives each rank the points of all, as one process would have them.
   void gather(const Grid<dim>& grid) {
     PointOrder<dim> order;
@@ -46,15 +55,8 @@ class Migration {
   /// Leaves each rank with those of its own cells.
   void keep_own(const RankCells<dim>& cells_of_ranks, const Grid<dim>& grid) {
     const std::vector<int> cells = cells_of_points();
-    std::vector<int> from, material_begin;
-    for (std::size_t m = 0; m < points_.materials(); ++m) {
-      material_begin.push_back(static_cast<int>(from.size()));
-      for (std::size_t p = begin_of(m); p < begin_of(m + 1); ++p)
-        if (cells_of_ranks.owner(grid.cell_at(cells[p])) == ranks_.rank()) from.push_back(static_cast<int>(p));
-    }
-    material_begin.push_back(static_cast<int>(from.size()));
-    points_.material_begin = std::move(material_begin);
-    take_points(points_, from);
+    const std::vector<int> from = take_chosen(
+        chosen_points([&](std::size_t p) { return cells_of_ranks.owner(grid.cell_at(cells[p])) == ranks_.rank(); }));
     take_materials(body_, from);
     PointOrder<dim> order;
     order.cells() = chosen(cells, from);
@@ -69,6 +71,47 @@ class Migration {
     return cells;
   }
 
+  // The points for which is_one(point) holds, of each material.
+  template <class IsOne>
+  std::vector<std::vector<int>> chosen_points(const IsOne& is_one) const {
+    std::vector<std::vector<int>> all(points_.materials());
+    for (std::size_t m = 0; m < all.size(); ++m)
+      for (std::size_t p = begin_of(m); p < begin_of(m + 1); ++p)
+        if (is_one(p)) all[m].push_back(static_cast<int>(p));
+    return all;
+  }
+  // Replaces the points by those that are listed for each material; returns the lists, one after the other.
+  std::vector<int> take_chosen(const std::vector<std::vector<int>>& of_materials) {
+    std::vector<int> all, material_begin;
+    for (const std::vector<int>& list : of_materials) {
+      material_begin.push_back(static_cast<int>(all.size()));
+      all.insert(all.end(), list.begin(), list.end());
+    }
+    material_begin.push_back(static_cast<int>(all.size()));
+    points_.material_begin = std::move(material_begin);
+    take_points(points_, all);
+    return all;
+  }
+  // How many points are in the cells, those that follow each other in one cell together; cells: as in run().
+  static std::vector<PointsOfCell> points_of_cells(const RankCells<dim>& cells_of_ranks, const Grid<dim>& grid,
+                                                   const std::vector<int>& cells) {
+    std::vector<PointsOfCell> all;
+    for (const int cell : cells) {
+      const std::int64_t place = cells_of_ranks.place(grid.cell_at(cell));
+      if (all.empty() || all.back().place != place) all.push_back({place, 0});
+      ++all.back().points;
+    }
+    return all;
+  }
+  bool is_uneven() const {
+    double all = 0, most = 0;
+    for (const double points : of_all(&ranks_, static_cast<double>(points_.size()))) {
+      all += points;
+      most = std::max(most, points);
+    }
+    return most > RankCells<dim>::most_over_mean * all / ranks_.count();
+  }
+
   // Sends each rank the points that go(point, rank) to it, and keeps those that go to this one; cells: as in run().
   template <class Go>
   void exchange(const Go& go, std::vector<int>& cells) {
@@ -76,10 +119,8 @@ class Migration {
     std::vector<Bytes> to(static_cast<std::size_t>(ranks_.count()));
     for (int r = 0; r < ranks_.count(); ++r)
       if (r != ranks_.rank()) to[static_cast<std::size_t>(r)] = packed(go, r, before, cells);
-    std::vector<std::vector<int>> from(points_.materials());  // in their new order; those from elsewhere follow ours
-    for (std::size_t m = 0; m < from.size(); ++m)
-      for (std::size_t p = begin_of(m); p < begin_of(m + 1); ++p)
-        if (go(p, ranks_.rank())) from[m].push_back(static_cast<int>(p));
+    // In their new order; those from elsewhere follow ours.
+    std::vector<std::vector<int>> from = chosen_points([&](std::size_t p) { return go(p, ranks_.rank()); });
     std::vector<std::vector<Rows>> memory(points_.materials());
     for (const Bytes& bytes : ranks_.deliver(to)) unpack(bytes, from, memory, before, cells);
     take(from, memory, before, cells);
@@ -131,11 +172,9 @@ class Migration {
   template <class Go>
   Bytes packed(const Go& go, int to, const std::vector<int>& before, const std::vector<int>& cells) {
     std::vector<int> all, of_material;
-    for (std::size_t m = 0; m < points_.materials(); ++m) {
-      const std::size_t first = all.size();
-      for (std::size_t p = begin_of(m); p < begin_of(m + 1); ++p)
-        if (go(p, to)) all.push_back(static_cast<int>(p));
-      of_material.push_back(static_cast<int>(all.size() - first));
+    for (const std::vector<int>& list : chosen_points([&](std::size_t p) { return go(p, to); })) {
+      all.insert(all.end(), list.begin(), list.end());
+      of_material.push_back(static_cast<int>(list.size()));
     }
     Bytes bytes;
     if (all.empty()) return bytes;
@@ -177,14 +216,12 @@ class Migration {
   // Puts the points in their order.
   void take(std::vector<std::vector<int>>& from, const std::vector<std::vector<Rows>>& memory,
             const std::vector<int>& before, std::vector<int>& cells) {
-    std::vector<int> all, material_begin;
+    std::vector<Rows> memory_now;
     for (std::size_t m = 0; m < from.size(); ++m) {
-      std::vector<std::size_t> place(
-          from[m].size());  // in what `memory` and the present memory have one after the other
+      // In what `memory` and the present memory have one after the other.
+      std::vector<std::size_t> place(from[m].size());
       for (std::size_t k = 0; k < place.size(); ++k) place[k] = k;
       std::ranges::stable_sort(place, {}, [&](std::size_t k) { return before[static_cast<std::size_t>(from[m][k])]; });
-      material_begin.push_back(static_cast<int>(all.size()));
-      for (const std::size_t k : place) all.push_back(from[m][k]);
       const std::size_t first = begin_of(m), end = begin_of(m + 1);
       std::size_t ours = 0;
       while (ours < from[m].size() && static_cast<std::size_t>(from[m][ours]) < end) ++ours;
@@ -202,20 +239,17 @@ class Migration {
         }
         for (std::size_t k = 0; k < place.size(); ++k) taken[row * place.size() + k] = pool[place[k]];
       }
-      memory_.push_back(std::move(taken));
+      memory_now.push_back(std::move(taken));
+      std::ranges::stable_sort(from[m], {}, [&](int p) { return before[static_cast<std::size_t>(p)]; });
     }
-    material_begin.push_back(static_cast<int>(all.size()));
-    take_points(points_, all);
-    cells = chosen(cells, all);
-    points_.material_begin = std::move(material_begin);
-    for (std::size_t m = 0; m < memory_.size(); ++m)
-      body_.materials[m]->replace(std::move(memory_[m]), begin_of(m), count_of(m));
+    cells = chosen(cells, take_chosen(from));
+    for (std::size_t m = 0; m < memory_now.size(); ++m)
+      body_.materials[m]->replace(std::move(memory_now[m]), begin_of(m), count_of(m));
   }
 
   const Ranks& ranks_;
   Body<K>& body_;
   MaterialPoints<dim>& points_;
-  std::vector<Rows> memory_;
 };
 
 }  // namespace stillpoint

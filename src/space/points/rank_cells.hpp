@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "parallel/of_all.hpp"
@@ -50,10 +51,11 @@ class RankCells {
     std::int64_t all = 0, before = 0;
     for (const PointsOfCell& cell : cells) all += cell.points;
     first_.clear();
+    std::int64_t last_place = -1;
     for (const PointsOfCell& cell : cells) {
       // The middle of the cell's points decides which rank they go to.
       const std::int64_t middle = (2 * before + cell.points) * ranks_ / (2 * std::max<std::int64_t>(all, 1));
-      const bool is_same_cell = &cell != cells.data() && (&cell)[-1].place == cell.place;
+      const bool is_same_cell = std::exchange(last_place, cell.place) == cell.place;
       while (!is_same_cell && static_cast<std::int64_t>(first_.size()) < std::min<std::int64_t>(middle, ranks_ - 1))
         first_.push_back(cell.place);
       before += cell.points;
