@@ -88,10 +88,14 @@ std::shared_ptr<CarriedBody> points_of_other_run(const Problem& problem) {
       throw_scene_error(initial_from, fmt::format("the other run is one of state = {}, and this scene of {}",
                                                   in_quotes(std::string(to_string(scene.state))),
                                                   in_quotes(std::string(to_string(problem.state)))));
-    if (scene.phase.quadrature == Quadrature::domains)
-      throw_scene_error(initial_from,
-                        "the points of the other run represent domains, which cannot be carried on yet; expected "
-                        "phase.quadrature = \"points\" there");
+    const bool had_domains = scene.phase.quadrature == Quadrature::domains,
+               has_domains = problem.phase.quadrature == Quadrature::domains;
+    if (had_domains != has_domains)
+      throw_scene_error(
+          initial_from,
+          fmt::format("the points of {} represent domains, and those of {} do not; expected the same "
+                      "phase.quadrature in both",
+                      had_domains ? "the other run" : "this scene", had_domains ? "this scene" : "the other run"));
     const std::vector<std::size_t> numbers = numbers_of(scene, problem);
     refuse_other_laws(scene, problem, numbers);
     refuse_other_thickness(scene, problem, numbers);

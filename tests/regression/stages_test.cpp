@@ -128,8 +128,11 @@ TEST_CASE("what a stage puts out of balance comes on over its ramp: a slow one n
 }
 
 TEST_CASE("a stage that changes nothing changes nothing, while a body moves and while it stands on a wall") {
-  for (const std::string law : {"law=hencky", "law=drucker-prager"}) {
-    CAPTURE(law);
+  for (const auto& [law, quadrature] : {std::pair<std::string, std::string>{"law=hencky", "points"},
+                                        {"law=drucker-prager", "points"},
+                                        {"law=hencky", "domains"},
+                                        {"law=drucker-prager", "domains"}}) {
+    CAPTURE(law, quadrature);
     const std::vector<std::string> column = {
         "body=[{name='ground', max=['h', '5*h'], material='fill', state='plane-strain'}]",
         "support=[{face='left', kind='roller'}, {face='right', kind='roller'}]",
@@ -140,7 +143,7 @@ TEST_CASE("a stage that changes nothing changes nothing, while a body moves and 
         "damping.strategy=viscous",
         "damping.c=2",
         "phase.max_motion=0.02",  // points take over velocities with and without the stage
-        "phase.quadrature=points",
+        "phase.quadrature=" + quadrature,
         "stop.residual=0",
         "stop.time=0.5"};
     std::vector<std::string> set = column;
@@ -153,6 +156,31 @@ TEST_CASE("a stage that changes nothing changes nothing, while a body moves and 
     CHECK(scenes::probe(staged, "floor", "normal") == Approx(scenes::probe(without, "floor", "normal")).epsilon(0.02));
     CHECK(scenes::probe(without, "floor", "normal") > 0);
   }
+}
+
+TEST_CASE("domains go from stage to stage with their corners, and a load goes on where it was on the body") {
+  // Columns drawn out by half as much again, so that domains are halved; the load comes with the second stage or is
+  // there from the start.
+  const auto drawn = [](const std::string& stages, const std::string& load) {
+    return scenes::load(
+        "ladder/lifts",
+        {"body=[{name='ground', max=['h', '4*h'], material='fill', state='plane-strain'}]",
+         "grid.max=['h', '10*h']", "grid.cells=[1, 20]", "body_force={value=[0, 0]}",
+         "support=[{face='bottom'}, {face='left', kind='roller'}, {face='right', kind='roller'}]",
+         "probe=[{name='top', at=['h/2', '4*h'], fields=['u.y']}, {name='middle', at=['h/2', '2*h'], "
+         "fields=['stress.yy']}]",
+         "traction=[{line=[[0, '4*h'], ['h', '4*h']], value=[0, \"" + load + "\"]}]", "material.fill.law=hencky",
+         "solve.method=relaxation", "phase.max_motion=0.1", "phase.quadrature=domains", "stop.residual=1e-9", stages});
+  };
+  const std::string at_once = "0.5*M", later = "0.5*M*min(t, 1)";
+  const Summary single = run(drawn("stage=[]", at_once));
+  REQUIRE(single.status == RunStatus::equilibrium);
+  const Summary staged = run(drawn("stage=[{at=0.5, equilibrium=true}, {at=2, equilibrium=true}]", later));
+  CHECK(staged.status == RunStatus::equilibrium);
+  CHECK(scenes::probe(single, "top", "u.y") > 0.5);
+  CHECK(scenes::probe(staged, "top", "u.y") == Approx(scenes::probe(single, "top", "u.y")).epsilon(1e-6));
+  CHECK(scenes::probe(staged, "middle", "stress.yy") ==
+        Approx(scenes::probe(single, "middle", "stress.yy")).epsilon(1e-6));
 }
 
 TEST_CASE("a support that is released hands its load on, and one that begins to hold does so where the body then is") {

@@ -180,8 +180,6 @@ void check_company_of_stages(SceneCheck& check) {
       scene.later_load && std::ranges::find(scene.stages, scene.later_load->at, &StageSpec::at) == scene.stages.end(),
       "load.at", "must be the time of a [[stage]], and there is none at t = {}",
       scene.later_load ? scene.later_load->at : 0);
-  check.wrong_if(scene.phase.quadrature == Quadrature::domains, "phase.quadrature",
-                 "domains cannot be carried on from stage to stage yet; take \"points\"");
   for (std::size_t k = 0; k < scene.probes.size(); ++k)
     check.wrong_if(scene.probes[k].point.has_value(), fmt::format("probe[{}].point", k),
                    "points have other numbers in other stages; take at");
@@ -216,6 +214,9 @@ void check_other_run(SceneCheck& check) {
                  "initial.displacements",
                  "elastic points take their deformation from their displacements; take phase.deformation = "
                  "\"accumulated\"");
+  check.wrong_if(
+      scene.displacements_from_zero && scene.phase.quadrature == Quadrature::domains, "initial.displacements",
+      "domains remember their displacements by their corners; take phase.quadrature = \"points\" in both runs");
   check.refuse_if(true, "initial", {"u", "v"},
                   "does not go with initial.from, where bodies are as another run left them");
 }

@@ -102,10 +102,30 @@ struct CarriedPoint {
     }
   }
 
-  /// Attaches the position to the domain of a point, which is still undeformed.
+  /// Attaches the position to the domain of a point, or to what its mean deformation F makes of it:
+  ///   X = X_p + F⁻¹ (x − x_p)
   void attach(const PointInCell& nearest, const MaterialPoints<Dim>& points) {
-    carrier = static_cast<std::size_t>(points.number[nearest.p]);
+    const std::size_t p = nearest.p;
+    carrier = static_cast<std::size_t>(points.number[p]);
     X = x;
+    Point<Dim> half, away;
+    bool is_undeformed = true;
+    for (int d = 0; d < Dim; ++d) {
+      half[d] = points.half[d][p];
+      away[d] = x[d] - points.x[d][p];
+      is_undeformed = is_undeformed && points.x[d][p] == points.rest[d][p];
+    }
+    if (is_undeformed) return;
+    if constexpr (Dim < 3) {
+      const auto F = Domain<Dim>::of(points, p).deformation(half);
+      if constexpr (Dim == 1) {
+        X[0] = points.rest[0][p] + away[0] / F[0];
+      } else {
+        const double det = F[0] * F[3] - F[1] * F[2];
+        X[0] = points.rest[0][p] + (F[3] * away[0] - F[1] * away[1]) / det;
+        X[1] = points.rest[1][p] + (F[0] * away[1] - F[2] * away[0]) / det;
+      }
+    }
   }
   /// The position in the domain of point p, each coordinate from −1 to 1.
   Point<Dim> position_in(std::size_t p, const MaterialPoints<Dim>& points) const {

@@ -213,6 +213,8 @@ class CarriedBodyOf final : public CarriedBody {
       state(fmt::format("v_{}", d), points_.v[d]);
     }
     for (std::size_t ij = 0; ij < points_.B_apic.size(); ++ij) state(fmt::format("B_{}", ij), points_.B_apic[ij]);
+    const StateArchive domains = state.part("domains");
+    if (state.restores() ? state.has_part("domains") : points_.has_domains()) archive_domains(domains);
     state("volume", points_.volume, "mass", points_.mass, "density", density_, "number", points_.number, "bodies",
           bodies_, "first_number", first_number_, "origin", origin_, "grid_moved", grid_moved_, "phase", phase_);
     std::size_t count = materials_.size();
@@ -227,6 +229,12 @@ class CarriedBodyOf final : public CarriedBody {
   }
 
  private:
+  void archive_domains(const StateArchive& state) {
+    for (std::size_t c = 0; c < points_.corner.size(); ++c) state(fmt::format("corner_{}", c), points_.corner[c]);
+    for (std::size_t d = 0; d < dim; ++d)
+      state(fmt::format("half_{}", d), points_.half[d], fmt::format("rest_{}", d), points_.rest[d]);
+  }
+
   // Throws StateError unless loops over the points and their numbers stay within what there is.
   void check() const {
     const std::size_t n = points_.size();
@@ -237,6 +245,10 @@ class CarriedBodyOf final : public CarriedBody {
     for (int d = 0; d < dim; ++d)
       fits = fits && points_.x[d].size() == n && (points_.v[d].empty() || points_.v[d].size() == n);
     for (const auto& B : points_.B_apic) fits = fits && (B.empty() || B.size() == n);
+    const std::size_t domains = points_.has_domains() ? n : 0;
+    for (const auto& x : points_.corner) fits = fits && x.size() == domains;
+    for (std::size_t d = 0; d < dim; ++d)
+      fits = fits && points_.half[d].size() == domains && points_.rest[d].size() == domains;
     for (const int number : points_.number) fits = fits && number >= 0 && number < first_number_.back();
     std::size_t end = 0;
     for (const CarriedMaterial<K>& material : materials_) {
