@@ -184,4 +184,37 @@ std::optional<std::pair<std::size_t, std::size_t>> crossing_edges(const Polygon&
   return std::nullopt;
 }
 
+// By lines from the middles of parts of the edges, inwards along their normals, to what they meet first.
+double thinnest_part(const Polygon& polygon) {
+  constexpr int looks = 16;           // along an edge
+  constexpr double opposite = -0.85;  // the cosine between normals
+  const double inwards = signed_area(polygon) > 0 ? -1 : 1;
+  const std::size_t n = polygon.size();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < n; ++k) {
+    const PlanePoint &a = polygon[k], &b = polygon[(k + 1) % n];
+    if (a == b) continue;
+    const PlanePoint normal = normal_of_edge(a, b), d{inwards * normal[0], inwards * normal[1]};
+    for (int look = 0; look < looks; ++look) {
+      const double share = (look + 0.5) / looks;
+      const PlanePoint x{a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
+      double way = std::numeric_limits<double>::infinity(), facing = 1;
+      for (std::size_t l = 0; l < n; ++l) {
+        const PlanePoint &from = polygon[l], &to = polygon[(l + 1) % n];
+        if (l == k || from == to) continue;
+        // x + s d = from + r (to − from)
+        const double ex = to[0] - from[0], ey = to[1] - from[1], det = ex * d[1] - ey * d[0];
+        const double rx = x[0] - from[0], ry = x[1] - from[1];
+        const double s = (ey * rx - ex * ry) / det, r = (d[1] * rx - d[0] * ry) / det;
+        if (!(s > 0 && s < way && r >= 0 && r <= 1)) continue;
+        way = s;
+        const PlanePoint other = normal_of_edge(from, to);
+        facing = normal[0] * other[0] + normal[1] * other[1];
+      }
+      if (facing < opposite) least = std::min(least, way);
+    }
+  }
+  return least;
+}
+
 }  // namespace stillpoint

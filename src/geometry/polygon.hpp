@@ -52,6 +52,10 @@ inline double distance_to_border(const Polygon& polygon, const PlanePoint& x) {
   return nearest_on_border(polygon, x).distance;
 }
 
+/// The least distance from an edge through the polygon to another one that runs nearly the other way: how wide its
+/// narrowest part is. A corner is no such part. Infinite: it has none.
+double thinnest_part(const Polygon& polygon);
+
 /// Two edges (k: from corner k to the next) that cross, touch or lie on each other without sharing a corner, or fold
 /// back at a shared one; empty if the polygon is simple. A corner equal to its neighbour counts as such edges.
 std::optional<std::pair<std::size_t, std::size_t>> crossing_edges(const Polygon& polygon);

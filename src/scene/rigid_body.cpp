@@ -16,6 +16,7 @@
 #include "geometry/revolved_shape.hpp"
 #include "geometry/simple_shapes.hpp"
 #include "geometry/triangle_shape.hpp"
+#include "geometry/triangle_solid.hpp"
 #include "scene/body_solid.hpp"
 
 namespace stillpoint {
@@ -160,6 +161,21 @@ RigidShapePtr<3> rigid_shape<3>(const RigidSpec& spec, bool /*axisymmetric*/) {
   if (!spec.stl.empty()) return triangles_of(spec);
   require(!spec.min.empty() && !spec.max.empty(), "a rigid body in space without a shape");
   return box<3>(vector_of<3>(spec.min), vector_of<3>(spec.max), spec.rounding);
+}
+
+std::vector<std::vector<double>> corners_of(const RigidSpec& spec) {
+  std::vector<std::vector<double>> corners = spec.polygon;
+  for (const auto* const widening : {&spec.wedge, &spec.cone})
+    if (!widening->empty()) corners.push_back(widening->front());
+  if (spec.from_stl.solid)
+    for (const auto& triangle : spec.from_stl.solid->triangles())
+      for (const auto& corner : triangle) corners.emplace_back(corner.begin(), corner.end());
+  const std::size_t dim = spec.min.size();
+  for (std::size_t c = 0; dim > 0 && c < std::size_t{1} << dim; ++c) {
+    corners.emplace_back(dim);
+    for (std::size_t d = 0; d < dim; ++d) corners.back()[d] = ((c >> d & 1) != 0 ? spec.max : spec.min)[d];
+  }
+  return corners;
 }
 
 }  // namespace stillpoint

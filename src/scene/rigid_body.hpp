@@ -22,4 +22,7 @@ RigidShapePtr<2> rigid_shape<2>(const RigidSpec& spec, bool axisymmetric);
 template <>
 RigidShapePtr<3> rigid_shape<3>(const RigidSpec& spec, bool axisymmetric);
 
+/// The corners of the shape where its keys place it [m]; where they are rounded, of the shape without a rounding.
+std::vector<std::vector<double>> corners_of(const RigidSpec& spec);
+
 }  // namespace stillpoint

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/polygon.hpp"
 #include "plan/catalogue.hpp"
 #include "scene/dimensions.hpp"
 #include "scene/grid_lines.hpp"
@@ -191,13 +192,18 @@ std::vector<std::string> thin_rigid_notes(const Problem& problem) {
   for (const RigidSpec& rigid : problem.rigid) {
     double width = std::numeric_limits<double>::infinity();
     for (std::size_t d = 0; d < rigid.min.size(); ++d) width = std::min(width, rigid.max[d] - rigid.min[d]);
+    if (!rigid.polygon.empty()) {
+      Polygon corners;
+      for (const std::vector<double>& corner : rigid.polygon) corners.push_back({corner[0], corner[1]});
+      width = thinnest_part(corners);
+    }
     if (!rigid.disc.empty() || !rigid.sphere.empty() || !rigid.cylinder.empty()) width = 2 * rigid.radius;
     const double cells = width / mean_cell(problem.grid);
     if (!(cells < 1)) continue;
     notes.push_back(
-        fmt::format("the rigid body '{}' is {:.2g} cells wide: it may go in between the places of a border that feel "
-                    "contact, two in a cell; expected smaller cells",
-                    rigid.name, cells));
+        fmt::format("the rigid body '{}' is {:.2g} cells wide{}: it may go in between the places of a border that feel "
+                    "contact, two in a cell, and ground that flows around it may go through; expected smaller cells",
+                    rigid.name, cells, rigid.polygon.empty() ? "" : " where it is thinnest"));
   }
   return notes;
 }

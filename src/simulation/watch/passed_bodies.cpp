@@ -1,8 +1,8 @@
 // Bodies that have gone through each other, or through rigid ones. Two pieces of border press on each other if they
 // were opposite when the phase began: bodies that turn to each other only later in the same phase meet nothing, and a
-// run would end at rest with both in one place. So the volume of the bodies that can move apart is summed in blocks of
-// the grid, where it must fit. A rigid body presses on the border of a body alone: once past it, it would rest in the
-// middle of the body, which bears nothing.
+// run would end at rest with both in one place. So their borders are compared where they are at the end, and the volume
+// of the bodies that can move apart is summed in blocks of the grid, where it must fit. A rigid body presses on the
+// border of a body alone: once past it, it would rest in the middle of the body, which bears nothing.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -116,11 +116,15 @@ std::vector<Overlap> overlaps(const Problem& problem, const LagrangianPhase& pha
   return list;
 }
 
+/// How the borders of bodies are opposite to each other again and again.
+const char* more_phases(const Problem& problem) {
+  return problem.phase.ends() ? "phases that end sooner" : "phases that end, as by phase.max_motion = 0.1";
+}
+
 std::string described(const Problem& problem, const Overlap& overlap) {
   const auto name = [&](std::size_t k) { return name_of_body(problem, k); };
-  const char* remedy = !have_contact(problem, overlap.a, overlap.b) ? "a [[contact]] between them"
-                       : problem.phase.ends()                       ? "phases that end sooner"
-                                                                    : "phases that end, as by phase.max_motion = 0.1";
+  const char* remedy =
+      have_contact(problem, overlap.a, overlap.b) ? more_phases(problem) : "a [[contact]] between them";
   return fmt::format(
       "{} and {} have gone through each other, in {} places, as at ({:.4g}): only "
       "parts of borders that were opposite when a phase began press on each other; expected {}",
@@ -130,14 +134,19 @@ std::string described(const Problem& problem, const Overlap& overlap) {
 /// Whether so much is inside that no force is right: a material point is some way below the border, which may lie in a
 /// rigid body by no more than its penetration, but for a corner, and for that only if the rest of the border bears it.
 /// The border itself has no place that feels contact in its corners.
+///
+/// Bodies in each other feel it where their borders are opposite, and between two places of these a corner may go in.
 bool is_grave(const Intrusion& found) {
-  constexpr double corner = 0.15, half = 0.5, rounding = 0.02;  // [cells]
+  constexpr double corner = 0.15, half = 0.5, rounding = 0.02, tenth = 0.1;  // [cells]
   if (found.of == Intrusion::Of::border) return !found.bears && found.cells > half;
+  if (found.of == Intrusion::Of::corner) return found.cells > 1;
+  if (found.of == Intrusion::Of::bodies) return found.cells > (found.bears ? half : tenth);
   return found.cells > (found.bears ? corner : rounding);
 }
 bool is_worth_a_note(const Intrusion& found) {
-  constexpr double seen = 0.1, rounding = 0.02;  // [cells]
-  return is_grave(found) || (found.of == Intrusion::Of::border && found.cells > (found.bears ? seen : rounding));
+  constexpr double seen = 0.1, rounding = 0.02, corner = 0.25;  // [cells]
+  return is_grave(found) || (found.of == Intrusion::Of::border && found.cells > (found.bears ? seen : rounding)) ||
+         (found.of == Intrusion::Of::bodies && found.cells > corner);
 }
 
 std::string described(const Problem& problem, const Intrusion& found) {
@@ -147,7 +156,22 @@ std::string described(const Problem& problem, const Intrusion& found) {
         "{} and {} are in each other by {:.2g} cells, as at ({:.4g}): rigid bodies do not touch each other; expected a "
         "body between them, or one of them not to be rigid",
         rigid(found.rigid), rigid(found.other), found.cells, fmt::join(found.at, ", "));
+  if (found.of == Intrusion::Of::bodies) {
+    const auto [a, b] = bodies_of(problem, problem.contacts[found.rigid]);
+    return fmt::format(
+        "{} and {} lie in each other by {:.2g} cells at ({:.4g}), and nothing bears it there: only parts of borders "
+        "that were opposite when a phase began press on each other; expected {}",
+        name_of_body(problem, a), name_of_body(problem, b), found.cells, fmt::join(found.at, ", "),
+        more_phases(problem));
+  }
   const std::string body = name_of_body(problem, found.other);
+  if (found.of == Intrusion::Of::corner)
+    return fmt::format(
+        "{} has gone in between the places of the border of {} that feel contact: its corner at ({:.4g}) lies {:.2g} "
+        "cells below the border, and only a border feels contact; expected smaller cells, or a rigid body that is "
+        "wider "
+        "there than a cell",
+        rigid(found.rigid), body, fmt::join(found.at, ", "), found.cells);
   if (found.of == Intrusion::Of::border)
     return fmt::format(
         "{} reaches {:.2g} cells into the border of {} at ({:.4g}), between the places that feel contact, and {}; "

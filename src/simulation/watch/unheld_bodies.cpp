@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
@@ -31,7 +32,7 @@ std::string moves_away(const Problem& problem, const std::string& name, ConstVec
   for (std::size_t axis = 0; axis < direction.size(); ++axis)
     if (std::abs(direction[axis]) > aligned) along = (problem.state == StressState::axisymmetric ? "rz" : "xyz")[axis];
   return fmt::format(
-      "{} is held by nothing along {} and moves away: no support, no friction and no other body is in its way; "
+      "{} is held by nothing along {} and moves away: no support, no friction and no other body is in its way now; "
       "expected one, or stop.residual = 0 and stop.time for its motion",
       name, along);
 }
@@ -86,8 +87,9 @@ std::vector<double> free_way(RunState& run) {
       for (const std::size_t k : parts[static_cast<std::size_t>(b)].unknowns) G(b, a) += Kx[k];
     }
   }
-  // A rough motion tells how stiff the bodies are.
-  for (std::size_t k = 0; k < n; ++k) x[k] = k % 2 == 0 ? 1 : -1;
+  // A rough motion, which is no translation of a part along an axis, tells how stiff the bodies are.
+  constexpr double golden = std::numbers::phi - 1;
+  for (std::size_t k = 0; k < n; ++k) x[k] = std::fmod(golden * static_cast<double>(k), 1.0) < 0.5 ? 1 : -1;
   phase.tangents().apply(Tangent::elastic, run.t, u, x, Kx);
   phase.mass().apply(x, Mx);
   const double stiffness = sum_over(n, [&](std::size_t k) { return x[k] * Kx[k]; }),

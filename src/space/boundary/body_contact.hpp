@@ -49,6 +49,8 @@ class BodyContact {
   void update_multipliers(const double* u);
   void add_fit(const double* u, ContactFit& fit) const;
   void add_reports(const double* u, std::vector<ContactReport>& to) const;
+  /// Where bodies of a contact lie in each other at u without feeling it, at most one place for each contact.
+  std::vector<Intrusion> intrusions(const double* u) const;
 
  private:
   struct Pair {

@@ -58,6 +58,12 @@ struct BorderPiece {
     for (const double along : vector) square += along * along;
     return std::sqrt(square);
   }
+  /// The unit normal when the phase begins, outwards.
+  Point<dim> normal() const {
+    Point<dim> n;
+    for (std::size_t d = 0; d < dim; ++d) n[d] = vector[d] / size();
+    return n;
+  }
   /// Moves the piece by the displacement u at the end of a phase.
   void move(const double* u) {
     vector = deformed_area(u);

@@ -174,7 +174,9 @@ std::vector<ContactReport> Conditions<K>::contacts(double t, const double* u) co
 
 template <Kinematics K>
 std::vector<Intrusion> Conditions<K>::intrusions(const Parts& phase, double t, const double* u) const {
-  return rigid_contact_->empty() ? std::vector<Intrusion>() : rigid_contact_->intrusions(phase, t, u);
+  std::vector<Intrusion> found = body_contact_->intrusions(u);
+  if (!rigid_contact_->empty()) std::ranges::move(rigid_contact_->intrusions(phase, t, u), std::back_inserter(found));
+  return found;
 }
 
 template <Kinematics K>

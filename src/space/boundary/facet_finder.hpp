@@ -36,6 +36,13 @@ class FacetFinder {
   void oppose(std::vector<Facet> facets) { facets_ = std::move(facets); }
   bool has_facets() const { return !facets_.empty(); }
   bool is_there(std::size_t piece) const { return facets_[piece].is_there; }
+  /// Whether a piece is closed at u, (pieces), so that it feels what it touches.
+  std::vector<char> closed(const double* u) const {
+    std::vector<char> closed(facets_.size(), 0);
+    for_near(
+        {}, u, [](std::size_t) { return 0.0; }, [&](const auto& near) { closed[near.piece] = 1; });
+    return closed;
+  }
   RigidPlacement<N> placement(double /*t*/) const { return {}; }
   bool is_free() const { return false; }
   Position load(double /*t*/) const { return Position::Zero(); }

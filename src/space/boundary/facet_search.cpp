@@ -23,26 +23,47 @@ std::array<double, Dim> difference(const std::array<double, Dim>& a, const std::
 
 /// The extent of a piece along the border [m].
 template <Kinematics K>
-double extent(const ContactSurface<K>& surface, std::size_t s) {
-  if constexpr (dimensions(K) == 3) return std::sqrt(surface.area(s));
-  if (K == Kinematics::axisymmetric) return surface.area(s) / (2 * std::numbers::pi * surface.start(s)[0]);
-  return surface.area(s) / surface.patches().front().depth;
+double extent(const BorderPiece<K>& piece, double depth) {
+  if constexpr (dimensions(K) == 3) return std::sqrt(piece.size());
+  if (K == Kinematics::axisymmetric) return piece.size() / (2 * std::numbers::pi * piece.place()[0]);
+  return piece.size() / depth;
 }
 
 }  // namespace
 
 template <Kinematics K>
-FacetSearch<K>::FacetSearch(const ContactSurface<K>& surface) : surface_(surface) {
-  double longest = -1;
-  for (std::size_t d = 0; d < dim; ++d) {
-    double least = std::numeric_limits<double>::infinity(), most = -least;
-    for (std::size_t s = 0; s < surface.size(); ++s) {
-      least = std::min(least, surface.start(s)[d]);
-      most = std::max(most, surface.start(s)[d]);
-    }
-    if (most - least > longest) longest = most - least, axis_ = d;
+std::vector<BorderPiece<K>> moved_pieces(const ContactSurface<K>& surface, const double* u) {
+  std::vector<BorderPiece<K>> pieces;
+  for (std::size_t s = 0; s < surface.size(); ++s) {
+    pieces.push_back(surface.piece(s));
+    if (u) pieces.back().move(u);
   }
-  for (std::size_t s = 0; s < surface.size(); ++s) sorted_.push_back({surface.start(s)[axis_], s});
+  return pieces;
+}
+
+template <Kinematics K>
+FacetSearch<K>::FacetSearch(const ContactSurface<K>& surface)
+    : FacetSearch(surface.patches(), moved_pieces(surface, nullptr)) {}
+
+template <Kinematics K>
+FacetSearch<K>::FacetSearch(std::span<const SurfacePatch> patches, const std::vector<BorderPiece<K>>& pieces)
+    : facets_(pieces.size()) {
+  Point<dim> least, most;
+  least.fill(std::numeric_limits<double>::infinity());
+  most.fill(-std::numeric_limits<double>::infinity());
+  for (const SurfacePatch& patch : patches) {
+    for (std::size_t s = patch.begin; s < patch.end; ++s) {
+      facets_[s] = {pieces[s].place(), pieces[s].normal(), extent(pieces[s], patch.depth), patch.cell};
+      sorted_.push_back({0, s});
+      for (std::size_t d = 0; d < dim; ++d) {
+        least[d] = std::min(least[d], facets_[s].place[d]);
+        most[d] = std::max(most[d], facets_[s].place[d]);
+      }
+    }
+  }
+  for (std::size_t d = 1; d < dim; ++d)
+    if (most[d] - least[d] > most[axis_] - least[axis_]) axis_ = d;
+  for (Entry& entry : sorted_) entry.along = facets_[entry.piece].place[axis_];
   std::ranges::stable_sort(sorted_, {}, &Entry::along);
 }
 
@@ -57,14 +78,17 @@ void FacetSearch<K>::visit_near(double along, const Visit& visit) const {
     if (--down; !visit(down->piece, along - down->along)) break;
 }
 
-// Of equally near pieces the one with the lowest number.
+// Of those for which counts(piece) holds; of equally near ones the one with the lowest number. The number of pieces:
+// there is none.
 template <Kinematics K>
-std::size_t FacetSearch<K>::nearest(const Point<dim>& x) const {
-  std::size_t found = surface_.size();
+template <class Counts>
+std::size_t FacetSearch<K>::nearest(const Point<dim>& x, const Counts& counts) const {
+  std::size_t found = facets_.size();
   double least = std::numeric_limits<double>::infinity();
   visit_near(x[axis_], [&](std::size_t s, double away) {
     if (away * away > least) return false;
-    const Point<dim> offset = difference(surface_.start(s), x);
+    if (!counts(s)) return true;
+    const Point<dim> offset = difference(facets_[s].place, x);
     const double square = dot(offset, offset);
     if (square < least || (square == least && s < found)) least = square, found = s;
     return true;
@@ -76,14 +100,15 @@ std::size_t FacetSearch<K>::nearest(const Point<dim>& x) const {
 template <Kinematics K>
 bool FacetSearch<K>::goes_on(std::size_t piece, const Point<dim>& towards) const {
   constexpr double smooth = 0.7;  // the cosine between the normals
-  const double length = extent(surface_, piece), near = 2.5 * length, size = std::sqrt(dot(towards, towards));
+  const Facet& here = facets_[piece];
+  const double near = 2.5 * here.extent, size = std::sqrt(dot(towards, towards));
   bool found = false;
-  visit_near(surface_.start(piece)[axis_], [&](std::size_t s, double away) {
+  visit_near(here.place[axis_], [&](std::size_t s, double away) {
     if (away > near || found) return false;
-    const Point<dim> offset = difference(surface_.start(s), surface_.start(piece));
+    const Point<dim> offset = difference(facets_[s].place, here.place);
     const double distance = std::sqrt(dot(offset, offset));
     found = s != piece && distance <= near && dot(offset, towards) > 0.5 * distance * size &&
-            dot(surface_.normal(s), surface_.normal(piece)) > smooth;
+            dot(facets_[s].normal, here.normal) > smooth;
     return true;
   });
   return found;
@@ -93,20 +118,42 @@ template <Kinematics K>
 auto FacetSearch<K>::opposite(const Point<dim>& x, const Point<dim>& normal) const
     -> std::optional<OppositeFacet<dim>> {
   if (sorted_.empty()) return std::nullopt;
-  const std::size_t q = nearest(x);
-  const Point<dim> n = surface_.normal(q), offset = difference(x, surface_.start(q));
+  const auto depth_below = [&](std::size_t s) { return -dot(difference(x, facets_[s].place), facets_[s].normal); };
   constexpr double against = -0.5;  // the cosine between normals: the side of a body does not bear what lies on its top
-  if (!(dot(n, normal) < against)) return std::nullopt;
-  const double gap = dot(offset, n);
+  const auto faces = [&](std::size_t s) { return dot(facets_[s].normal, normal) < against; };
+  std::size_t q = nearest(x, [](std::size_t) { return true; });
+  if (!faces(q)) {
+    if (!(depth_below(q) > 0)) return std::nullopt;
+    q = nearest(x, faces);
+    if (q == facets_.size() || depth_below(q) > facets_[q].cell) return std::nullopt;
+  }
+  const Facet& facet = facets_[q];
+  const double gap = -depth_below(q);
+  const Point<dim> offset = difference(x, facet.place);
   Point<dim> aside;
-  for (std::size_t d = 0; d < dim; ++d) aside[d] = offset[d] - gap * n[d];
+  for (std::size_t d = 0; d < dim; ++d) aside[d] = offset[d] - gap * facet.normal[d];
   constexpr double half = 0.6;  // of the extent: Gauss points are not in the middle of what they stand for
-  if (std::sqrt(dot(aside, aside)) > half * extent(surface_, q) && !goes_on(q, aside)) return std::nullopt;
-  OppositeFacet<dim> facet{q, gap, surface_.start(q), n};
-  for (std::size_t d = 0; d < dim; ++d) facet.foot[d] += aside[d];
-  return facet;
+  if (std::sqrt(dot(aside, aside)) > half * facet.extent && !goes_on(q, aside)) return std::nullopt;
+  OppositeFacet<dim> opposite{q, gap, facet.place, facet.normal};
+  for (std::size_t d = 0; d < dim; ++d) opposite.foot[d] += aside[d];
+  return opposite;
 }
 
+template <Kinematics K>
+double FacetSearch<K>::depth(const Point<dim>& x) const {
+  if (sorted_.empty()) return -std::numeric_limits<double>::infinity();
+  const Facet& facet = facets_[nearest(x, [](std::size_t) { return true; })];
+  return -dot(difference(x, facet.place), facet.normal);
+}
+
+template std::vector<BorderPiece<Kinematics::line>> moved_pieces(const ContactSurface<Kinematics::line>&,
+                                                                 const double*);
+template std::vector<BorderPiece<Kinematics::plane>> moved_pieces(const ContactSurface<Kinematics::plane>&,
+                                                                  const double*);
+template std::vector<BorderPiece<Kinematics::axisymmetric>> moved_pieces(
+    const ContactSurface<Kinematics::axisymmetric>&, const double*);
+template std::vector<BorderPiece<Kinematics::space>> moved_pieces(const ContactSurface<Kinematics::space>&,
+                                                                  const double*);
 template class FacetSearch<Kinematics::line>;
 template class FacetSearch<Kinematics::plane>;
 template class FacetSearch<Kinematics::axisymmetric>;

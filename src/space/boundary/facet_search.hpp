@@ -2,10 +2,13 @@
 //
 // A facet is a piece of the border, with its tangent plane. Opposite is the piece nearest to the position, if it faces
 // the other border there and if the foot of the position on its plane lies in it, or in a border that goes on beyond
-// it: past an edge there is nothing to touch.
+// it: past an edge there is nothing to touch. In a body that is thin, or beside a corner, what lies past a face is
+// nearer to another one: then it is the nearest of those that face the other border, if that is no more than a cell
+// away.
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "space/boundary/contact_surface.hpp"
@@ -25,26 +28,39 @@ class FacetSearch {
   static constexpr int dim = dimensions(K);
 
  public:
-  /// The surface, as it is when a phase begins, must outlive this object.
+  /// A surface as it is when a phase begins.
   explicit FacetSearch(const ContactSurface<K>& surface);
+  /// Patches of a surface whose pieces, of all of it, have moved.
+  FacetSearch(std::span<const SurfacePatch> patches, const std::vector<BorderPiece<K>>& pieces);
 
   /// The facet opposite to x, on a border with this normal; empty if there is none.
   std::optional<OppositeFacet<dim>> opposite(const Point<dim>& x, const Point<dim>& normal) const;
+  /// How deep x lies below the facet nearest to it [m]; negative outside.
+  double depth(const Point<dim>& x) const;
 
  private:
+  struct Facet {
+    Point<dim> place, normal;
+    double extent, cell;  // along the border; the shortest side of its cell [m]
+  };
   struct Entry {
     double along;  // coordinate along axis_ [m]
     std::size_t piece;
   };
 
-  std::size_t nearest(const Point<dim>& x) const;
+  template <class Counts>
+  std::size_t nearest(const Point<dim>& x, const Counts& counts) const;
   bool goes_on(std::size_t piece, const Point<dim>& towards) const;
   template <class Visit>
   void visit_near(double along, const Visit& visit) const;
 
-  const ContactSurface<K>& surface_;
+  std::vector<Facet> facets_;  // (pieces)
   std::size_t axis_ = 0;       // along which the surface is longest
-  std::vector<Entry> sorted_;  // by `along`
+  std::vector<Entry> sorted_;  // of the patches, by `along`
 };
+
+/// The pieces of a surface where u takes them; null: where the phase begins.
+template <Kinematics K>
+std::vector<BorderPiece<K>> moved_pieces(const ContactSurface<K>& surface, const double* u);
 
 }  // namespace stillpoint

@@ -73,7 +73,16 @@ void RigidContact<K>::refuse_points_inside(const Parts& phase, double t) const {
   constexpr double most = 0.5;  // [cells]
   for (std::size_t r = 0; r < bodies_.size(); ++r) {
     const TouchFinder<K>& finder = bodies_[r].finder();
-    const Intrusion deepest = deepest_point(r, finder.placement(t), phase, nullptr);
+    const RigidPlacement<N> placement = finder.placement(t);
+    const Intrusion corner = deepest_corner(r, placement, moved_pieces(surface_, nullptr));
+    if (corner.cells > 1 && !bodies_[r].was_there(corner.other))
+      throw_scene_error(
+          fmt::format("rigid[{}]", r),
+          fmt::format(
+              "{} is inside body[{}]: its corner at ({:.6g}) is {:.3g} cells below the border when {}; expected a "
+              "hole in the body",
+              in_quotes(finder.spec().name), corner.other, fmt::join(corner.at, ", "), corner.cells, begin()));
+    const Intrusion deepest = deepest_point(r, placement, phase, nullptr);
     if (!(deepest.cells > most)) continue;
     throw_scene_error(
         fmt::format("rigid[{}]", r),

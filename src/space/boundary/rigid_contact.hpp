@@ -84,6 +84,9 @@ class RigidContact {
   /// The same of the border in patches that bear nothing; bearing: whether they do, (patches).
   Intrusion deepest_border(std::size_t r, const RigidPlacement<N>& placement, const std::vector<char>& bearing,
                            const double* u) const;
+  /// The corner of rigid body r that lies deepest below the border of a body; border: where its pieces are.
+  Intrusion deepest_corner(std::size_t r, const RigidPlacement<N>& placement,
+                           const std::vector<BorderPiece<K>>& border) const;
   Intrusion deepest_overlap(std::size_t r, std::size_t other, const std::vector<RigidPlacement<N>>& placements,
                             const Grid<dim>& grid) const;
 

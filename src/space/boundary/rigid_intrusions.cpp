@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/rigid_body.hpp"
+#include "space/boundary/facet_search.hpp"
 #include "space/boundary/rigid_contact.hpp"
 #include "space/grid/shortest_side.hpp"
 
@@ -24,6 +26,7 @@ template <Kinematics K>
 std::vector<Intrusion> RigidContact<K>::intrusions(const Parts& phase, double t, const double* u) const {
   std::vector<RigidPlacement<N>> placements;
   for (const RigidBody& rigid : bodies_) placements.push_back(rigid.placement(t, u));
+  const std::vector<BorderPiece<K>> border = moved_pieces(surface_, u);
   std::vector<Intrusion> found;
   const auto take = [&](Intrusion one) {
     if (one.cells > 0) found.push_back(std::move(one));
@@ -31,7 +34,8 @@ std::vector<Intrusion> RigidContact<K>::intrusions(const Parts& phase, double t,
   for (std::size_t r = 0; r < bodies_.size(); ++r) {
     const std::vector<char> bearing = bodies_[r].bearing_patches(placements[r], u);
     const bool bears = std::ranges::any_of(bearing, [](char one) { return one != 0; });
-    for (Intrusion one : {deepest_point(r, placements[r], phase, u), deepest_border(r, placements[r], bearing, u)}) {
+    for (Intrusion one : {deepest_point(r, placements[r], phase, u), deepest_border(r, placements[r], bearing, u),
+                          deepest_corner(r, placements[r], border)}) {
       one.bears = bears;
       take(std::move(one));
     }
@@ -107,6 +111,28 @@ Intrusion RigidContact<K>::deepest_border(std::size_t r, const RigidPlacement<N>
           take_if_deeper(-finder.distance(between, placement) / patches[k].cell, patches[k].body, between, deepest);
         }
       }
+    }
+  }
+  return deepest;
+}
+
+// A border that is pushed in goes around a corner: one that lies below it by more than a cell has gone in between.
+template <Kinematics K>
+Intrusion RigidContact<K>::deepest_corner(std::size_t r, const RigidPlacement<N>& placement,
+                                          const std::vector<BorderPiece<K>>& border) const {
+  Intrusion deepest{.of = Intrusion::Of::corner, .rigid = r};
+  const TouchFinder<K>& finder = bodies_[r].finder();
+  const std::vector<std::vector<double>> corners = corners_of(finder.spec());
+  for (const auto& part : surface_.parts()) {
+    if (corners.empty() || !finder.touches(part.body)) continue;
+    const auto patches = surface_.patches().subspan(part.first_patch, part.end_patch - part.first_patch);
+    if (patches.empty()) continue;
+    const FacetSearch<K> search(patches, border);
+    for (const std::vector<double>& corner : corners) {
+      const Position at = placement.to_space(Position(corner.data()));
+      Point<dim> x;
+      for (int d = 0; d < dim; ++d) x[static_cast<std::size_t>(d)] = at[d];
+      take_if_deeper(search.depth(x) / patches.front().cell, part.body, x, deepest);
     }
   }
   return deepest;

@@ -131,3 +131,10 @@ TEST_CASE("the distance to a border is that to its nearest edge or corner") {
   CHECK(distance_to_border(kHorseshoe, {4, 0}) == Approx(1));
   CHECK(distance_to_border(kTriangle, {-3, -4}) == Approx(5));
 }
+
+TEST_CASE("the thinnest part of a polygon lies between edges that run against each other, not in a corner") {
+  const Polygon blade = {{0, 0}, {0, -3}, {1, -3}, {1, 4}, {0, 4}, {0, 0.25}, {-2, 0.25}, {-2, 0}};
+  for (const Polygon& either : {blade, reversed(blade)}) CHECK(thinnest_part(either) == Approx(0.25));
+  CHECK(thinnest_part(Polygon{{0, 0}, {3, 0}, {3, 2}, {0, 2}}) == Approx(2));
+  CHECK(std::isinf(thinnest_part(kTriangle)));
+}
