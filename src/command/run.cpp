@@ -3,18 +3,25 @@
 #include <stillpoint/run.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "base/atomic_file.hpp"
 #include "base/text.hpp"
 #include "base/thread_team.hpp"
 #include "command/command_line.hpp"
@@ -23,6 +30,8 @@
 #include "command/launcher.hpp"
 #include "command/terminal.hpp"
 #include "output/checkpoint_file.hpp"
+#include "output/run_folder.hpp"
+#include "parallel/of_all.hpp"
 #include "parallel/start_ranks.hpp"
 #include "plan/catalogue.hpp"
 
@@ -126,7 +135,7 @@ void print_table(const Summary& s, const std::filesystem::path& out) {
 std::filesystem::path checkpoint_of(const std::filesystem::path& folder_or_file) {
   if (!std::filesystem::exists(folder_or_file))
     throw StateError(fmt::format("--resume {}: there is no such folder", folder_or_file.string()));
-  if (!std::filesystem::is_directory(folder_or_file)) return folder_or_file;
+  if (!std::filesystem::is_directory(folder_or_file)) return absolute(folder_or_file);  // whose folder has a name
   std::filesystem::path last = folder_or_file / "checkpoint.h5", previous = previous_checkpoint(last);
   if (std::filesystem::exists(last)) return last;
   if (std::filesystem::exists(previous)) return previous;
@@ -136,16 +145,21 @@ std::filesystem::path checkpoint_of(const std::filesystem::path& folder_or_file)
                   folder_or_file.string()));
 }
 
-// The folder of what a rank after the first writes: the first alone leaves anything.
+// The folder of what a rank after the first writes: the first alone leaves anything. One that was left behind, as a
+// rank that another one ends cannot remove its own, goes when the next one is made.
 class FolderOfNobody {
  public:
   /// resumed: the folder of a run that goes on, whose files it takes; empty: there is none.
   explicit FolderOfNobody(const std::filesystem::path& resumed) {
-    std::string name = (std::filesystem::temp_directory_path() / "stillpoint-rank-XXXXXX").string();
+    const std::filesystem::path room = temporary_room();
+    remove_left_behind(room);
+    std::string name = (room / (std::string(prefix) + "XXXXXX")).string();
     if (!mkdtemp(name.data()))
       throw std::filesystem::filesystem_error("mkdtemp", name, std::error_code(errno, std::generic_category()));
     path_ = name;
-    if (!resumed.empty()) std::filesystem::copy(resumed, path_, std::filesystem::copy_options::recursive);
+    lock_ = lock_folder(path_);
+    using std::filesystem::copy_options;
+    if (!resumed.empty()) copy(resumed, path_, copy_options::recursive | copy_options::skip_existing);
   }
   ~FolderOfNobody() {
     std::error_code ignored;
@@ -156,13 +170,60 @@ class FolderOfNobody {
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  static constexpr std::string_view prefix = "stillpoint-rank-";
+
+  static std::filesystem::path temporary_room() {
+    std::error_code fault;
+    const std::filesystem::path room = std::filesystem::temp_directory_path(fault);
+    if (fault)
+      throw StateError(
+          "TMPDIR names no folder, in which a rank after the first keeps what it writes; expected one, or "
+          "TMPDIR not to be set");
+    return room;
+  }
+  // Those whose lock nobody holds, and that are not as young as one that is yet to be locked.
+  static void remove_left_behind(const std::filesystem::path& room) {
+    using namespace std::chrono_literals;
+    std::error_code fault;
+    for (const auto& entry : std::filesystem::directory_iterator(room, fault)) {
+      if (!entry.path().filename().string().starts_with(prefix)) continue;
+      const auto age = std::filesystem::file_time_type::clock::now() - entry.last_write_time(fault);
+      if (fault || age < 60s) continue;
+      try {
+        const FolderLock lock(entry.path());
+        std::filesystem::remove_all(entry.path(), fault);
+      } catch (const std::exception&) {
+        // It is in use, or somebody else's.
+      }
+    }
+  }
+
   std::filesystem::path path_;
+  std::shared_ptr<FolderLock> lock_;
 };
+
+// Throws StateError on all ranks unless all of them have the same scene, from the same state, and are of one build.
+void require_one_run(const Ranks& ranks, const Scene& scene, const std::filesystem::path& checkpoint) {
+  std::string run = fmt::format("{}\n{}\n{}\n", STILLPOINT_VERSION, scene.text, fmt::join(scene.overrides, "\n"));
+  if (!checkpoint.empty()) {
+    std::array<char, 512> head{};  // with the checksum of what follows
+    std::ifstream(checkpoint, std::ios::binary).read(head.data(), head.size());
+    run.append(head.begin(), head.end());
+  }
+  const std::vector<std::uint64_t> all = of_all(&ranks, checksum(0, run.data(), run.size()));
+  const auto other = std::ranges::find_if(all, [&](std::uint64_t one) { return one != all.front(); });
+  if (other == all.end()) return;
+  throw StateError(
+      fmt::format("ranks 0 and {} have different scenes, --set or checkpoints, or other builds of the "
+                  "program; expected the same on all machines",
+                  other - all.begin()));
+}
 
 int run_scene(const RunArguments& arguments, const std::shared_ptr<const Ranks>& ranks) {
   const bool resumes = !arguments.resume.empty();
   const std::filesystem::path checkpoint = resumes ? checkpoint_of(arguments.resume) : std::filesystem::path();
   const Scene scene = resumes ? load_scene_of(checkpoint) : load_scene(arguments.scene.file, arguments.scene.overrides);
+  if (ranks) require_one_run(*ranks, scene, checkpoint);
   const std::filesystem::path out = !arguments.out.empty() ? arguments.out
                                     : resumes              ? checkpoint.parent_path()
                                                            : std::filesystem::path("out") / scene.name;

@@ -120,10 +120,12 @@ Verdict RunState::failed(const std::string& what) const {
   return {RunStatus::failed, fmt::format("at t = {:.6g} s, after {} steps, in phase {}: {}", t, steps(), phases, what)};
 }
 
-// Ranks come to an end together, between two steps.
-std::function<bool()> RunState::asks_to_end() {
-  if (!options.stops || options.ranks) return {};
-  return [this] { return end_request.asked(); };
+// Ranks come to an end together: between two steps, or where they hear of a wish at the same place.
+std::function<bool()> RunState::asks_to_end() { return options.ranks ? nullptr : asks_all_to_end(); }
+
+std::function<bool()> RunState::asks_all_to_end() {
+  if (!options.stops) return {};
+  return [this] { return end_request.asked_of_any(options.ranks.get()); };
 }
 
 void RunState::archive(const StateArchive& state) {

@@ -47,6 +47,8 @@ struct RunState {
   bool loads_stay() const;
   /// The question whether the run is to end, as a function; empty if the run heeds no such request while it is at work.
   std::function<bool()> asks_to_end();
+  /// The same in work in which all ranks ask it as often after they have gathered.
+  std::function<bool()> asks_all_to_end();
   /// The verdict that the run has failed now: "at t = 0.31 s, after 120 steps, in phase 3: " and what happened.
   Verdict failed(const std::string& what) const;
 

@@ -112,7 +112,7 @@ double Simulation::Impl::landing_time(double t_stop) const {
 // A step of a static solver may take long: it is broken off on request, at the last equilibrium on its way. Empty: so
 // it was.
 std::optional<StepReport> Simulation::Impl::try_step(double landing) {
-  const StopScope scope(run_->model.static_method ? run_->asks_to_end() : nullptr);
+  const StopScope scope(run_->model.static_method ? run_->asks_all_to_end() : nullptr);
   try {
     return run_->motion->stepper->step(landing);
   } catch (const Stopped&) {

@@ -140,4 +140,34 @@ def _(folder):
         assert not (folder / str(k) / "summary.json").exists()
 
 
+@claim("ranks whose scenes or checkpoints are not the same are refused with status 2, and wait for nobody")
+def _(folder):
+    def ranks(*others):
+        contexts = []
+        for k, other in enumerate(others):
+            contexts += [":"] if k > 0 else []
+            contexts += ["-n", "1", STILLPOINT, "run", *other, "--threads", "1", "--quiet"]
+        return call("mpirun", "--oversubscribe", *contexts, env=os.environ | AS_ROOT, timeout=60)
+
+    bar, out = ROOT / "problems/bar.toml", folder / "out"
+    for others in (
+        ((bar, "--set", "stop.steps=30", "--out", out), (bar, "--set", "stop.steps=20", "--out", out)),
+        ((bar, "--out", out), (bar, "--set", "material.bar.E=2e9", "--out", out)),
+        ((bar, "--out", out), (ROOT / "problems/column.toml", "--out", out)),
+    ):
+        result = ranks(*others)
+        assert result.returncode == 2, result
+        assert result.stderr.count("ranks 0 and 1 have different scenes") == 1, result
+        assert not out.exists()
+
+
+@claim("all ranks hear in Newton's method that the time is over, and end as one process does")
+def _(folder):
+    begun = time.monotonic()
+    result = run(2, "cantilever.toml", folder / "out", "solve.method=newton", "grid.cells=[500,25]", "stop.wall_time=0.5")
+    assert result.returncode == 3, result
+    assert time.monotonic() - begun < 60
+    assert json.loads((folder / "out/summary.json").read_text())["status"] == "time-limit"
+
+
 check_the_claim()
