@@ -1,14 +1,13 @@
 #include <stillpoint/drucker_prager_cone.hpp>
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
+#include "law_checks.hpp"
+
 using namespace stillpoint;
-
-namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-
-}  // namespace
+using checks::degree;
 
 TEST_CASE("in plane strain the cone of no dilatancy is eta = sin phi, xi = cos phi") {
   for (const double phi : {0.0, 20.0, 35.0}) {

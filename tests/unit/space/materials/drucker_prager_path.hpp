@@ -4,15 +4,15 @@
 #include <stillpoint/drucker_prager.hpp>
 
 #include <cmath>
-#include <numbers>
 
+#include "law_checks.hpp"
 #include "space/materials/history_path.hpp"
 
 namespace stillpoint::test {
 
 using enum StressState;
 
-constexpr double degree = std::numbers::pi / 180;
+using checks::degree;
 constexpr double E = 1e7, nu = 0.2, G = E / (2 * (1 + nu)), K = E / (3 * (1 - 2 * nu));
 
 /// varies: of a soil that softens.

@@ -11,12 +11,14 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
+#include "law_checks.hpp"
+
 namespace stillpoint {
 namespace {
 
+using checks::degree;
 using Eigen::Matrix3d, Eigen::Vector3d;
 
-constexpr double degree = 0.017453292519943295;
 constexpr IsotropicModuli elastic{2e7, 1e7};
 
 struct Plane {
