@@ -30,7 +30,7 @@ Scene pushed_column(double share, const std::string& method, const std::vector<s
   return scenes::load("cantilever", overrides);
 }
 
-const std::vector<std::string> ways = {
+const std::vector<std::string> ways_to_equilibrium = {
     "solve.method=newton",      "solve.method=newton-cg",   "solve.method=cg",          "solve.method=lbfgs",
     "damping.strategy=viscous", "damping.strategy=kinetic", "damping.strategy=cundall", "damping.strategy=auto"};
 
@@ -56,7 +56,7 @@ EquilibriumStability stretched(double stretch, double& omega_max) {
 }  // namespace
 
 TEST_CASE("a column below Euler's load is in stable equilibrium, by any way to it") {
-  for (const std::string& way : ways) {
+  for (const std::string& way : ways_to_equilibrium) {
     CAPTURE(way);
     const Summary s = run(pushed_column(0.95, way));
     CHECK(s.status == RunStatus::equilibrium);
@@ -68,7 +68,7 @@ TEST_CASE("a column below Euler's load is in stable equilibrium, by any way to i
 
 TEST_CASE("a straight column beyond Euler's load is named unstable, with status 3, by any way that does not bend it") {
   for (const double share : {1.05, 3.2}) {
-    for (const std::string& way : ways) {
+    for (const std::string& way : ways_to_equilibrium) {
       CAPTURE(share, way);
       const Summary s = run(pushed_column(share, way));
       CAPTURE(s.reason);

@@ -46,12 +46,12 @@ double distance(const Summary& a, const Summary& b) {
   return std::hypot(u(a, "u.x") - u(b, "u.x"), u(a, "u.y") - u(b, "u.y")) / std::hypot(u(b, "u.x"), u(b, "u.y"));
 }
 
-const std::vector<std::string> ramp = {"body_force.value=['0', '-g*(y > 4)*min(t/5, 1)']", "stop.time=60"};
+const std::vector<std::string> slow_ramp = {"body_force.value=['0', '-g*(y > 4)*min(t/5, 1)']", "stop.time=60"};
 
 }  // namespace
 
 TEST_CASE("the share of plastic strain by overshoot grows with what a footing settles too much") {
-  const Summary slow = settled_footing(ramp);
+  const Summary slow = settled_footing(slow_ramp);
   double last_share = -1, last_excess = -1;
   // Settlements 0, 3, 18, 29 and 58 % larger than the slow one.
   for (const char* damping :
@@ -72,7 +72,7 @@ TEST_CASE("the share of plastic strain by overshoot grows with what a footing se
 }
 
 TEST_CASE("a slow ramp, critical damping and auto overshoot by less than one part in fifty, and say nothing") {
-  for (const auto& set : {ramp, {"damping.c=critical"}, {"damping={strategy='auto'}"}}) {
+  for (const auto& set : {slow_ramp, {"damping.c=critical"}, {"damping={strategy='auto'}"}}) {
     const Summary s = settled_footing(set);
     REQUIRE(s.plastic_overshoot);
     CHECK(*s.plastic_overshoot < 0.02);
