@@ -14,7 +14,7 @@
 
 namespace stillpoint::checks {
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double one_degree = std::numbers::pi / 180;
 
 /// E and ν of what is elastic.
 constexpr double young = 210.0, poisson = 0.3;

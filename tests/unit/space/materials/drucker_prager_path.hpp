@@ -12,8 +12,9 @@ namespace stillpoint::test {
 
 using enum StressState;
 
-using checks::degree;
-constexpr double E = 1e7, nu = 0.2, G = E / (2 * (1 + nu)), K = E / (3 * (1 - 2 * nu));
+using checks::one_degree;
+constexpr double ground_E = 1e7, ground_nu = 0.2, ground_G = ground_E / (2 * (1 + ground_nu)),
+                 ground_K = ground_E / (3 * (1 - 2 * ground_nu));
 
 /// varies: of a soil that softens.
 template <StressState S, bool varies = false>

@@ -35,7 +35,7 @@ struct PyramidLaws {
   using Law = MohrCoulomb<S>;
   static inline const MohrCoulombParameters soil = {.E = 1e7, .nu = 0.25, .c = 2e3, .phi = 30, .psi = 10};
 };
-const DruckerPragerParameters& soil = ConeLaws::soil;
+const DruckerPragerParameters& cone_soil = ConeLaws::soil;
 
 static_assert(HistoryLaw<DruckerPrager<space>> && ElasticLaw<Hencky<space>>);
 
@@ -248,7 +248,7 @@ TEMPLATE_TEST_CASE("moduli in space are the derivative of the stress: yielding, 
       CHECK(checks::relative_distance(law.moduli(H, H, 0, now), exact) < 1e-6);  // rounding/d, and curvature
       const auto A = law.elastic_moduli(H, now);
       for (int a = 0; a < 9; ++a)
-        for (int b = 0; b < a; ++b) CHECK(A[9 * a + b] == Approx(A[9 * b + a]).margin(1e-9 * soil.E));
+        for (int b = 0; b < a; ++b) CHECK(A[9 * a + b] == Approx(A[9 * b + a]).margin(1e-9 * cone_soil.E));
     }
   }
 }

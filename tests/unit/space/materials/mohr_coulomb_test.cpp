@@ -13,7 +13,7 @@ namespace stillpoint {
 namespace {
 
 using enum StressState;
-using checks::degree;
+using checks::one_degree;
 using test::cell_pressure, test::HistoryPath;
 
 template <StressState S, bool softens = false>
@@ -58,7 +58,7 @@ TEST_CASE("triaxial compression and extension end on Mohr-Coulomb's strength and
   const double phi = GENERATE(30., 35., 0.), c = 1e4;
   const double psi = phi > 0 ? GENERATE(0., 10., 30.) : 0.;
   const MohrCoulombParameters m{.E = 2e7, .nu = 0.3, .c = c, .phi = phi, .psi = psi};
-  const double s = std::sin(phi * degree), k = c * std::cos(phi * degree), d = std::sin(psi * degree);
+  const double s = std::sin(phi * one_degree), k = c * std::cos(phi * one_degree), d = std::sin(psi * one_degree);
   CAPTURE(phi, psi);
   // σ₁ (1 − sin φ) = σ₃ (1 + sin φ) + 2 c cos φ, pressures positive
   const Triaxial compressed = triaxial(m, -0.03);
@@ -102,11 +102,11 @@ TEST_CASE("simple shear under a constant normal stress mobilises Davis' ratio, a
     up = root_of([&](double yy) { return path.stress_after(at(yy))[1] - cell_pressure; }, up, up + 1e-9);
     path.step(at(up));
   }
-  const double davis =
-      std::sin(phi * degree) * std::cos(psi * degree) / (1 - std::sin(phi * degree) * std::sin(psi * degree));
+  const double davis = std::sin(phi * one_degree) * std::cos(psi * one_degree) /
+                       (1 - std::sin(phi * one_degree) * std::sin(psi * one_degree));
   CAPTURE(phi, psi, K0);
   CHECK(path.stress()[3] / -cell_pressure == Approx(davis).epsilon(1e-5));
-  CHECK((up - before) / (gamma / steps) == Approx(std::tan(psi * degree)).margin(1e-3));
+  CHECK((up - before) / (gamma / steps) == Approx(std::tan(psi * one_degree)).margin(1e-3));
 }
 
 TEST_CASE("softening leads the strength along the table by plastic strain") {
@@ -133,7 +133,7 @@ TEST_CASE("material that is drawn apart keeps the opened volume as a gap, which 
                                                  Case{0, 1e9, 2}, Case{0, 1e9, 1}, Case{5e3, 0, 2}, Case{5e3, 0, 1});
   CAPTURE(c, tension, directions);
   const MohrCoulombParameters m{.E = 2e7, .nu = 0.25, .c = c, .phi = 30, .psi = 0, .tension = tension};
-  const double K = 2e7 / 1.5, cut = std::min(tension, c / std::tan(30 * degree));
+  const double K = 2e7 / 1.5, cut = std::min(tension, c / std::tan(30 * one_degree));
   PyramidPath<axisymmetric> path(m, {});
   const auto at = [n = directions](double e) { return Gradient<axisymmetric>{e, 0, 0, n > 1 ? e : 0, n > 2 ? e : 0}; };
   path.go(at(0.01), 10);
