@@ -1,15 +1,24 @@
 // What every elastic law must satisfy, and the deformations to see it at.
 #pragma once
 
+#include <stillpoint/material.hpp>
 #include <stillpoint/tensor.hpp>
 
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <type_traits>
 #include <vector>
 
 #include "largest.hpp"
 
 namespace stillpoint::checks {
+
+constexpr double one_degree = std::numbers::pi / 180;
+
+/// E and ν of what is elastic.
+constexpr double young = 210.0, poisson = 0.3;
+inline const LameParameters lame = LameParameters::from(young, poisson);
 
 /// Displacement gradients of a state: none, small, equal stretches (equal eigenvalues of F Fᵀ), shear and large ones.
 template <StressState S>
@@ -49,6 +58,12 @@ Moduli<S> differences(const FirstPiola& P, const Gradient<S>& H) {
     for (int a = 0; a < components; ++a) A[components * a + b] = (P_above[a] - P_below[a]) / (2 * d);
   }
   return A;
+}
+
+template <StressState S>
+Gradient<S> minus(Gradient<S> a, const Gradient<S>& b) {
+  for (std::size_t c = 0; c < a.size(); ++c) a[c] -= b[c];
+  return a;
 }
 
 /// max |A − B| over max |B|.

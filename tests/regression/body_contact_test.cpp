@@ -16,9 +16,7 @@ using namespace stillpoint;
 namespace stillpoint::test {
 namespace {
 
-Summary run_ladder(const std::string& name, const std::vector<std::string>& set = {}) {
-  return run(scenes::load("ladder/" + name, set), {.threads = 1});  // tests run side by side
-}
+using scenes::run_ladder;
 
 /// The largest error of the force between the blocks, and of the displacement of the upper one's top.
 double error_of_blocks(const Summary& s, double E_2) {

@@ -11,26 +11,23 @@
 #include "solvers/relaxation/relaxations.hpp"
 
 using namespace stillpoint;
+using scenes::with;
 
 namespace {
 
 using Set = std::vector<std::string>;
 
-Set with(Set set, const Set& more) {
-  set.insert(set.end(), more.begin(), more.end());
-  return set;
-}
 Summary triaxial(const Set& set) { return run(scenes::load("ladder/triaxial_clay", set), {.threads = 1}); }
 
-struct State {
+struct Clay {
   double p, q, pc, e;  // pressures positive [kPa]
 };
-State middle(const Summary& s) {
+Clay middle(const Summary& s) {
   const auto at = [&](const char* field) { return scenes::probe(s, "middle", field); };
   return {-(at("stress.xx") + at("stress.yy") + at("stress.zz")) / 3e3, (at("stress.xx") - at("stress.yy")) / 1e3,
           at("pc") / 1e3, at("void_ratio")};
 }
-void check(const State& at, const State& expected, double tolerance) {
+void check(const Clay& at, const Clay& expected, double tolerance) {
   CHECK(at.p == Approx(expected.p).epsilon(tolerance));
   CHECK(at.q == Approx(expected.q).epsilon(tolerance));
   CHECK(at.pc == Approx(expected.pc).epsilon(tolerance));
@@ -38,15 +35,15 @@ void check(const State& at, const State& expected, double tolerance) {
 }
 
 // At an axial strain of 20 %, from OCR = 1 and 5
-const State wet{154.07028620869085, 162.2108586260725, 272.66858648094785, 0.8222165469008322};
-const State dry{172.74753715843437, 218.2426114753031, 364.2193031843979, 1.0288298681534775};
+const Clay wet_sample{154.07028620869085, 162.2108586260725, 272.66858648094785, 0.8222165469008322};
+const Clay dry_sample{172.74753715843437, 218.2426114753031, 364.2193031843979, 1.0288298681534775};
 
 }  // namespace
 
 TEST_CASE(
     "a triaxial sample of Cam clay that is slowly compressed hardens on the wet side and softens on the dry one") {
-  check(middle(triaxial({})), wet, 1e-3);
-  check(middle(triaxial({"material.clay.OCR=5"})), dry, 1e-3);
+  check(middle(triaxial({})), wet_sample, 1e-3);
+  check(middle(triaxial({"material.clay.OCR=5"})), dry_sample, 1e-3);
 }
 
 TEST_CASE("Newton's method loads a sample of Cam clay to the state of its motion") {
@@ -63,7 +60,7 @@ TEST_CASE("Newton's method loads a sample of Cam clay to the state of its motion
   for (const char* steps : {"20", "100"}) {
     const Summary s = loaded(steps);
     CHECK(s.status == RunStatus::equilibrium);
-    check(middle(s), wet, 1e-6);
+    check(middle(s), wet_sample, 1e-6);
     CHECK(scenes::probe(s, "corner", "u.y") == Approx(0.1 * std::expm1(-0.2)).epsilon(0.04));
   }
 }

@@ -13,8 +13,6 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-constexpr double nu = 0.3, rho = 2000, g = 9.81, H = 10, E_large = 3.924e5;  // ρ g H = E/2
-
 Scene column(std::vector<std::string> overrides = {}) { return scenes::load("column", overrides); }
 
 /// u of the static solution, off by this share in L2 over the points.
@@ -23,14 +21,16 @@ double error_of(const Scene& scene) {
   return exact_error(scene, *phase, 0, statics::solution(*phase))->u_rel_l2;
 }
 
-std::string cells(int n) { return "grid.cells=[2, " + std::to_string(n) + "]"; }
+std::string cells_high(int n) { return "grid.cells=[2, " + std::to_string(n) + "]"; }
 
 /// Confined compression at large strain: P(F) = W'(F) = −ρ g (H − Y). With dY = P'(F) dF/(ρ g) the displacement is
 ///   u = ∫ (F − 1) dY = [(F − 1) P − W]/(ρ g) between the stretches at the base and at Y.
 struct ExactColumn {
+  static constexpr double nu = 0.3, rho = 2000, g = 9.81, H = 10, E = 3.924e5;  // ρ g H = E/2
   std::string law;
-  LameParameters m = LameParameters::from(E_large, nu);
+  LameParameters m = LameParameters::from(E, nu);
 
+  static double weight_above(double Y) { return rho * g * (H - Y); }
   double W(double F) const {
     const double ln = std::log(F);
     return law == "hencky" ? (m.lambda + 2 * m.mu) / 2 * ln * ln
@@ -42,7 +42,7 @@ struct ExactColumn {
   }
   double stretch(double Y) const {
     double low = 0.5, high = 1;
-    for (int k = 0; k < 60; ++k) (P((low + high) / 2) < -rho * g * (H - Y) ? low : high) = (low + high) / 2;
+    for (int k = 0; k < 60; ++k) (P((low + high) / 2) < -weight_above(Y) ? low : high) = (low + high) / 2;
     return (low + high) / 2;
   }
   double u(double Y) const {
@@ -52,7 +52,7 @@ struct ExactColumn {
 };
 
 std::vector<std::string> at_large_strain(const std::string& law, const std::string& state) {
-  return {"material.soil.law=" + law, "body.state=" + state, "constants.E=" + std::to_string(E_large)};
+  return {"material.soil.law=" + law, "body.state=" + state, "constants.E=" + std::to_string(ExactColumn::E)};
 }
 
 /// Largest |u_y − exact| over the points, as a share of the top's displacement.
@@ -65,7 +65,7 @@ double error_at_large_strain(const ExactColumn& exact, std::vector<std::string> 
     CHECK_THAT(u[2 * p], WithinAbs(0, 1e-9));
     off.take_magnitude(u[2 * p + 1] - exact.u(x[2 * p + 1]));
   }
-  return off.value() / std::abs(exact.u(H));
+  return off.value() / std::abs(exact.u(ExactColumn::H));
 }
 
 struct InPhases {
@@ -93,7 +93,7 @@ TEST_CASE("the linear column is exact at its nodes, so that its points are off b
       CAPTURE(state, n);
       const double expected = 3.0 / 32 / std::sqrt(2.0 / 15) / (n * n);
       // what is left is the sum over the points for the norm of the field
-      CHECK(error_of(column({"body.state=" + state, cells(n)})) == Approx(expected).epsilon(0.01));
+      CHECK(error_of(column({"body.state=" + state, cells_high(n)})) == Approx(expected).epsilon(0.01));
     }
   }
 }
@@ -106,7 +106,7 @@ TEST_CASE("bases that hold a parabola hold the column exactly where the points i
         // to rounding times the condition of K
         const std::string points = basis == "quadratic" ? "9" : "25";
         CHECK(error_of(column({"body.state=" + state, "grid.basis=" + basis, "body.placement=" + placement,
-                               "body.points_per_cell=" + points, cells(8),
+                               "body.points_per_cell=" + points, cells_high(8),
                                basis == "hermite" ? "mass.kind=consistent" : "mass.kind=lumped"})) < 1e-10);
       }
     }
@@ -133,7 +133,7 @@ TEST_CASE("at large strain the column loses 25 % of its base's height, and its p
         scene.insert(scene.end(), {"grid.basis=" + basis, "body.placement=gauss", "body.points_per_cell=9"});
         const auto off = [&](int n) {
           auto finer = scene;
-          finer.push_back(cells(n));
+          finer.push_back(cells_high(n));
           return error_at_large_strain(exact, finer);
         };
         const double coarse = off(8), fine = off(16);
@@ -153,10 +153,11 @@ TEST_CASE("at large strain each cell of the linear column bears exactly the weig
       const auto phase = make_phase(column(at_large_strain(law, state)));
       const auto u = statics::solution(*phase);
       const auto x = phase->fields().positions(), stress = statics::point_stress(*phase, u);
-      const double h = H / 16;
+      const double h = ExactColumn::H / 16;
       for (std::size_t p = 0; p < phase->points(); ++p) {
         const double middle = (std::floor(x[2 * p + 1] / h) + 0.5) * h;
-        CHECK_THAT(stress[4 * p + 1], WithinAbs(-rho * g * (H - middle), 1e-9 * rho * g * H));
+        CHECK_THAT(stress[4 * p + 1],
+                   WithinAbs(-ExactColumn::weight_above(middle), 1e-9 * ExactColumn::weight_above(0)));
         CHECK_THAT(stress[4 * p], WithinRel(stress[4 * p + 2], 1e-9));  // σ_xx = σ_zz
       }
     }
@@ -192,7 +193,7 @@ TEST_CASE("at large strain in many phases the quadratic column settles right to 
       CHECK(s.phases > 5);
       CHECK(std::abs(off) < 0.003);
       const double y = s.probe_positions.at("base")[1];
-      CHECK_THAT(scenes::probe(s, "base", "stress.yy"), WithinRel(-rho * g * (H - y), 0.02));
+      CHECK_THAT(scenes::probe(s, "base", "stress.yy"), WithinRel(-ExactColumn::weight_above(y), 0.02));
     }
   }
 }

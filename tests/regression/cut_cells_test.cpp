@@ -12,6 +12,7 @@
 
 using namespace stillpoint;
 using Catch::Contains;
+using scenes::with;
 using stillpoint::test::TemporaryFolder;
 
 namespace {
@@ -19,13 +20,8 @@ namespace {
 const std::vector<std::string> bases = {"linear", "quadratic", "cubic", "hermite"};
 const std::vector<std::string> slivers = {"0.3", "1e-1", "1e-2", "1e-3", "1e-5", "1e-6", "1e-9"};  // shares of a cell
 
-std::vector<std::string> with(std::vector<std::string> some, const std::vector<std::string>& more) {
-  some.insert(some.end(), more.begin(), more.end());
-  return some;
-}
-
 // A bar of length 1 + sliver h, held at one end: u'' = 1 under its weight.
-Scene bar(const std::vector<std::string>& overrides) {
+Scene cut_bar(const std::vector<std::string>& overrides) {
   const TemporaryFolder folder;
   return load_scene(folder.write("bar.toml", R"(
 dim = 1
@@ -59,7 +55,7 @@ c = "critical"
 }
 
 // A block of (1 + sliver h)², held at the left and on rollers at the bottom, pulled to the right.
-Scene block(const std::vector<std::string>& overrides) {
+Scene cut_block(const std::vector<std::string>& overrides) {
   const TemporaryFolder folder;
   return load_scene(folder.write("block.toml", R"(
 dim = 2
@@ -150,7 +146,8 @@ TEST_CASE("a bar that ends in a sliver of a cell has the omega_1 of a bar, pi/(2
   for (const std::string mass : {"lumped", "consistent"}) {
     for (const std::string& basis : bases) {
       for (const std::string& sliver : slivers) {
-        const auto phase = make_phase(bar({"grid.basis=" + basis, "mass.kind=" + mass, "constants.sliver=" + sliver}));
+        const auto phase =
+            make_phase(cut_bar({"grid.basis=" + basis, "mass.kind=" + mass, "constants.sliver=" + sliver}));
         CAPTURE(mass, basis, sliver);
         const double L = 1 + 0.1 * std::stod(sliver);
         CHECK(omega_1(*phase) == Approx(std::numbers::pi / (2 * L)).epsilon(0.005));
@@ -163,10 +160,10 @@ TEST_CASE("a sliver does not shorten the critical step") {
   for (const std::string mass : {"lumped", "consistent"}) {
     for (const std::string& basis : bases) {
       const std::vector<std::string> scene = {"grid.basis=" + basis, "mass.kind=" + mass};
-      const double uncut = omega_max(*make_phase(bar(scene)));
+      const double uncut = omega_max(*make_phase(cut_bar(scene)));
       for (const std::string sliver : {"0.1", "1e-2", "1e-4", "1e-6"}) {
         CAPTURE(mass, basis, sliver);
-        CHECK(omega_max(*make_phase(bar(with(scene, {"constants.sliver=" + sliver})))) < 1.3 * uncut);
+        CHECK(omega_max(*make_phase(cut_bar(with(scene, {"constants.sliver=" + sliver})))) < 1.3 * uncut);
       }
     }
   }
@@ -176,7 +173,7 @@ TEST_CASE("a bar that ends in a sliver settles by g L²/2 exactly where the basi
   for (const std::string basis : {"quadratic", "cubic", "hermite"}) {
     for (const std::string& sliver : slivers) {
       CAPTURE(basis, sliver);
-      const auto phase = make_phase(bar({"grid.basis=" + basis, "constants.sliver=" + sliver}));
+      const auto phase = make_phase(cut_bar({"grid.basis=" + basis, "constants.sliver=" + sliver}));
       const std::vector<double> u = statics::point_displacement(*phase, statics::solution(*phase));
       const std::vector<double> x = phase->fields().positions();
       const double L = 1 + 0.1 * std::stod(sliver);
@@ -193,7 +190,7 @@ TEST_CASE("a block with slivers along two faces is stretched evenly by a tractio
   for (const std::string& basis : bases) {
     for (const std::string sliver : {"0.1", "1e-2", "1e-4", "1e-6"}) {
       CAPTURE(basis, sliver);
-      const auto phase = make_phase(block({"grid.basis=" + basis, "constants.sliver=" + sliver}));
+      const auto phase = make_phase(cut_block({"grid.basis=" + basis, "constants.sliver=" + sliver}));
       const std::vector<double> u = statics::solution(*phase), of_points = statics::point_displacement(*phase, u);
       const std::vector<double> x = phase->fields().positions();
       double worst = 0;
@@ -212,10 +209,10 @@ TEST_CASE("supports bear the weight and the tractions of a block with slivers") 
   for (const std::string& basis : bases) {
     for (const std::string sliver : {"0.1", "1e-3", "1e-5"}) {
       CAPTURE(basis, sliver);
-      const Summary s = run(
-          block({"grid.basis=" + basis, "constants.sliver=" + sliver, fmt::format("body_force.value=[0, {}]", -weight),
-                 "support=[{face='left', kind='roller', name='side'}, {face='bottom', kind='roller', name='base'}]",
-                 "solve.method=newton"}));
+      const Summary s = run(cut_block(
+          {"grid.basis=" + basis, "constants.sliver=" + sliver, fmt::format("body_force.value=[0, {}]", -weight),
+           "support=[{face='left', kind='roller', name='side'}, {face='bottom', kind='roller', name='base'}]",
+           "solve.method=newton"}));
       REQUIRE(s.status == RunStatus::equilibrium);
       const double L = 1 + 0.125 * std::stod(sliver);
       CHECK(s.reactions.at("side")[0] == Approx(-stress * L).epsilon(1e-9));
@@ -226,10 +223,10 @@ TEST_CASE("supports bear the weight and the tractions of a block with slivers") 
 
 TEST_CASE("a block that cuts cells has the omega_1 of one that does not") {
   for (const std::string basis : {"linear", "quadratic", "hermite"}) {
-    const double uncut = omega_1(*make_phase(block({"grid.basis=" + basis})));
+    const double uncut = omega_1(*make_phase(cut_block({"grid.basis=" + basis})));
     for (const std::string sliver : {"0.1", "1e-2", "1e-4", "1e-6", "1e-9"}) {
       CAPTURE(basis, sliver);
-      const auto phase = make_phase(block({"grid.basis=" + basis, "constants.sliver=" + sliver}));
+      const auto phase = make_phase(cut_block({"grid.basis=" + basis, "constants.sliver=" + sliver}));
       CHECK(omega_1(*phase) * (1 + 0.125 * std::stod(sliver)) == Approx(uncut).epsilon(0.02));
     }
   }
@@ -237,19 +234,19 @@ TEST_CASE("a block that cuts cells has the omega_1 of one that does not") {
 
 TEST_CASE("a lumped mass whose lowest mode hardly moves the material is told of, with what to change") {
   const auto told = [](const std::vector<std::string>& overrides) {
-    const Model model = make_model(block(overrides));
+    const Model model = make_model(cut_block(overrides));
     return fmt::format("{}", fmt::join(model.notes, "\n")).find("functions which hardly reach the body") !=
            std::string::npos;
   };
-  const double right = omega_1(*make_phase(block({"mass.kind=consistent", "grid.cells=[40, 40]"})));
+  const double right = omega_1(*make_phase(cut_block({"mass.kind=consistent", "grid.cells=[40, 40]"})));
   REQUIRE(told({"grid.basis=cubic"}));  // a mode of the body's corner, which lies within the grid
-  CHECK(omega_1(*make_phase(block({"grid.basis=cubic"}))) < 0.6 * right);
+  CHECK(omega_1(*make_phase(cut_block({"grid.basis=cubic"}))) < 0.6 * right);
   for (const std::vector<std::string>& change : std::vector<std::vector<std::string>>{
            {"grid.max=[1.0, 1.0]", "grid.cells=[8, 8]"}, {"grid.basis=quadratic"}, {"mass.kind=consistent"}}) {
     CAPTURE(change.front());
     const std::vector<std::string> changed = with({"grid.basis=cubic"}, change);
     CHECK_FALSE(told(changed));
-    CHECK(omega_1(*make_phase(block(changed))) == Approx(right).epsilon(0.02));
+    CHECK(omega_1(*make_phase(cut_block(changed))) == Approx(right).epsilon(0.02));
   }
 }
 
@@ -278,7 +275,7 @@ TEST_CASE("Cook's membrane with a cubic basis comes to rest as soon as with a qu
 TEST_CASE("what is held in a sliver stays held") {
   for (const std::string basis : {"linear", "quadratic", "cubic"}) {
     CAPTURE(basis);
-    const auto phase = make_phase(bar({"grid.basis=" + basis, "body.min=0.099", "constants.sliver=1e-3"}));
+    const auto phase = make_phase(cut_bar({"grid.basis=" + basis, "body.min=0.099", "constants.sliver=1e-3"}));
     CHECK(omega_1(*phase) > 0);
     CHECK(phase->shape().discretisation().quadrature.slivers == 2);
     CHECK(phase->shape().discretisation().quadrature.joined == 1);
@@ -287,8 +284,8 @@ TEST_CASE("what is held in a sliver stays held") {
 
 TEST_CASE("a body whose faces lie on grid lines, or that moves on, keeps every function of its cells") {
   for (const auto& scene :
-       {bar({}), block({}), scenes::load("footing"), scenes::load("inclusion"), scenes::load("slope"),
-        block(
+       {cut_bar({}), cut_block({}), scenes::load("footing"), scenes::load("inclusion"), scenes::load("slope"),
+        cut_block(
             {"constants.sliver=0.01", "material.block={law='hencky', E=1, nu=0.25, rho=1}", "phase.max_motion=0.1"})}) {
     CAPTURE(scene.name);
     CHECK(make_phase(scene)->shape().discretisation().quadrature.joined == 0);

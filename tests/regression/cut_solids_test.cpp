@@ -18,7 +18,7 @@ using stillpoint::test::TemporaryFolder;
 namespace {
 
 /// In a cube of 7³ cells, free: a support holds what lies on it, which not all of these shapes do.
-double omega_max(const std::string& shape, const std::vector<std::string>& overrides) {
+double omega_max_of_solid(const std::string& shape, const std::vector<std::string>& overrides) {
   const TemporaryFolder folder;
   const Scene scene =
       load_scene(folder.write("solid.toml",
@@ -38,14 +38,14 @@ double omega_max(const std::string& shape, const std::vector<std::string>& overr
 TEST_CASE("the surface of a solid shortens the critical step by no more than 1.5, of a consistent mass 4, at any cut") {
   for (const auto& [mass, most] : {std::pair("lumped", 1.5), {"consistent", 4.0}}) {
     const std::string kind = std::string("mass.kind=") + mass;
-    const double uncut = omega_max("", {kind});
+    const double uncut = omega_max_of_solid("", {kind});
     for (const std::string placement : {"uniform", "gauss"}) {
       for (const double radius : {0.36, 0.4, 0.42, 0.429, 0.43, 0.45, 0.4999}) {
         for (const std::string& shape :
              {fmt::format("sphere = [0.5, 0.5, 0.5]\nradius = {}", radius),
               fmt::format("cylinder = [[0.5, 0, 0.5], [0.5, 0.97, 0.5]]\nradius = {}", radius)}) {
           CAPTURE(mass, placement, shape);
-          CHECK(omega_max(shape, {kind, "body.placement=" + placement}) < most * uncut);
+          CHECK(omega_max_of_solid(shape, {kind, "body.placement=" + placement}) < most * uncut);
         }
       }
     }

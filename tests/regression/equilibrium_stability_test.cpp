@@ -22,7 +22,7 @@ using Kind = EquilibriumStability::Kind;
 namespace {
 
 // The cantilever of problems/cantilever.toml pushed along its axis by a share of Euler's load, π²/4 E I/L².
-Scene column(double share, const std::string& method, const std::vector<std::string>& more = {}) {
+Scene pushed_column(double share, const std::string& method, const std::vector<std::string>& more = {}) {
   std::vector<std::string> overrides = {
       fmt::format("constants.load={}", share * std::numbers::pi * std::numbers::pi / 4),
       "traction=[{face='right', value=['-P/h', 0.0]}]", "grid.cells=[20, 1]", method};
@@ -30,7 +30,7 @@ Scene column(double share, const std::string& method, const std::vector<std::str
   return scenes::load("cantilever", overrides);
 }
 
-const std::vector<std::string> ways = {
+const std::vector<std::string> ways_to_equilibrium = {
     "solve.method=newton",      "solve.method=newton-cg",   "solve.method=cg",          "solve.method=lbfgs",
     "damping.strategy=viscous", "damping.strategy=kinetic", "damping.strategy=cundall", "damping.strategy=auto"};
 
@@ -56,9 +56,9 @@ EquilibriumStability stretched(double stretch, double& omega_max) {
 }  // namespace
 
 TEST_CASE("a column below Euler's load is in stable equilibrium, by any way to it") {
-  for (const std::string& way : ways) {
+  for (const std::string& way : ways_to_equilibrium) {
     CAPTURE(way);
-    const Summary s = run(column(0.95, way));
+    const Summary s = run(pushed_column(0.95, way));
     CHECK(s.status == RunStatus::equilibrium);
     CHECK(s.exit_status == 0);
     CHECK(s.stability == "stable");
@@ -68,9 +68,9 @@ TEST_CASE("a column below Euler's load is in stable equilibrium, by any way to i
 
 TEST_CASE("a straight column beyond Euler's load is named unstable, with status 3, by any way that does not bend it") {
   for (const double share : {1.05, 3.2}) {
-    for (const std::string& way : ways) {
+    for (const std::string& way : ways_to_equilibrium) {
       CAPTURE(share, way);
-      const Summary s = run(column(share, way));
+      const Summary s = run(pushed_column(share, way));
       CAPTURE(s.reason);
       if (s.status == RunStatus::equilibrium) {  // on a long way rounding has grown until it buckled: that stands
         CHECK(share > 3);
@@ -91,7 +91,8 @@ TEST_CASE("a straight column beyond Euler's load is named unstable, with status 
 }
 
 TEST_CASE("the buckled shape that a lateral force leads to is stable") {
-  const Summary s = run(column(1.5, "solve.method=newton", {"traction=[{face='right', value=['-P/h', '0.01*P/h']}]"}));
+  const Summary s =
+      run(pushed_column(1.5, "solve.method=newton", {"traction=[{face='right', value=['-P/h', '0.01*P/h']}]"}));
   CAPTURE(s.reason);
   CHECK(s.status == RunStatus::equilibrium);
   CHECK(s.stability == "stable");
@@ -102,23 +103,23 @@ TEST_CASE("a column under a load that turns with it stays stable far beyond Eule
   // The load's tangent is unsymmetric: its symmetric part alone has a negative eigenvalue long before.
   for (const double load : {2.6, 7.9, 19.0}) {
     const Summary s =
-        run(column(1, "solve.method=newton",
-                   {fmt::format("constants.load={}", load), "traction=[{face='right', pressure='P/h'}]"}));
+        run(pushed_column(1, "solve.method=newton",
+                          {fmt::format("constants.load={}", load), "traction=[{face='right', pressure='P/h'}]"}));
     CAPTURE(load, s.reason);
     CHECK(s.status == RunStatus::equilibrium);
     CHECK(s.stability == "stable");
   }
-  const Summary beyond =
-      run(column(1, "solve.method=newton", {"constants.load=21.5", "traction=[{face='right', pressure='P/h'}]"}));
+  const Summary beyond = run(
+      pushed_column(1, "solve.method=newton", {"constants.load=21.5", "traction=[{face='right', pressure='P/h'}]"}));
   CHECK(beyond.stability != "stable");  // it flutters: the lowest eigenvalues are a complex pair
 }
 
 TEST_CASE("an unstable equilibrium is found where the loads' tangent is unsymmetric as well") {
   const auto pushed = [](double share) {
-    return run(
-        column(share, "solve.method=newton",
-               {"traction=[{face='right', value=['-P/h', 0.0]}, {face='top', pressure='0.3*P/h'}, {face='bottom', "
-                "pressure='0.3*P/h'}]"}));
+    return run(pushed_column(
+        share, "solve.method=newton",
+        {"traction=[{face='right', value=['-P/h', 0.0]}, {face='top', pressure='0.3*P/h'}, {face='bottom', "
+         "pressure='0.3*P/h'}]"}));
   };
   CHECK(pushed(0.9).stability == "stable");
   const Summary s = pushed(1.2);
@@ -128,7 +129,7 @@ TEST_CASE("an unstable equilibrium is found where the loads' tangent is unsymmet
 
 TEST_CASE("the mode of an unstable equilibrium is written with the points' positions, and gone after a stable run") {
   const TemporaryFolder folder;
-  const Summary s = run(column(3.2, "solve.method=newton"), {.out = folder.path()});
+  const Summary s = run(pushed_column(3.2, "solve.method=newton"), {.out = folder.path()});
   const auto file = folder.path() / "unstable_mode.csv";
   REQUIRE(std::filesystem::exists(file));
   std::istringstream rows(test::contents(file));
@@ -149,7 +150,7 @@ TEST_CASE("the mode of an unstable equilibrium is written with the points' posit
   CHECK(count == s.points);
   CHECK(longest == Approx(1).epsilon(0.01));
   CHECK(at > 9.5);
-  run(column(0.5, "solve.method=newton"), {.out = folder.path()});
+  run(pushed_column(0.5, "solve.method=newton"), {.out = folder.path()});
   CHECK_FALSE(std::filesystem::exists(file));
 }
 

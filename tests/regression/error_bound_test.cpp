@@ -71,7 +71,7 @@ Range seen(const std::vector<Sample>& samples, double nearer_than) {
   return range;
 }
 
-constexpr double rounding = 1e-5;  // of ratios, if the error itself is 1e-6 and that of u* 1e-11
+constexpr double ratio_rounding = 1e-5;  // of ratios, if the error itself is 1e-6 and that of u* 1e-11
 
 /// √(Σ_p |u_p|²) over the points, which all have the same volume.
 double at_points(const LagrangianPhase& phase, ConstVec u) {
@@ -92,7 +92,7 @@ TEST_CASE("on every linear scene, with every strategy and after every step, no e
                                        "nesterov", "cg", "lbfgs", "auto"}) {
       const Range bound = guaranteed(relaxed(with(problem, strategy), rest));
       CAPTURE(problem.name, strategy, bound.most.value());
-      CHECK(bound.least.value() >= 1 - rounding);
+      CHECK(bound.least.value() >= 1 - ratio_rounding);
     }
   }
 }
@@ -104,7 +104,7 @@ TEST_CASE("leapfrog with critical damping is certified to 2.5 times its error, a
     const std::vector<Sample> way = relaxed(with(problem, "viscous"), rest);
     const Range near = seen(way, 0.1), end = seen(way, 1e-4);
     CAPTURE(problem.name, near.least.value(), near.most.value(), end.least.value(), end.most.value());
-    CHECK(near.least.value() >= 1 - rounding);
+    CHECK(near.least.value() >= 1 - ratio_rounding);
     CHECK(near.most.value() < 2.5);
     CHECK(end.most.value() < 1.25);
   }

@@ -11,7 +11,7 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-constexpr double weight = 1800 * 9.81, K0 = 0.3 / 0.7, H = 1, h = 0.125;  // ρ g [N/m³], the cells' height
+constexpr double ground_weight = 1800 * 9.81, ground_depth = 1;  // ρ g [N/m³], H [m]
 
 Scene ground(const std::vector<std::string>& overrides = {}) { return scenes::load("level_ground", overrides); }
 
@@ -25,7 +25,7 @@ TEST_CASE("level ground whose cells are full is in balance at the start to round
       CHECK(StateNorms(motion.relaxation()).residual(0, motion.u()) < 1e-12);
       motion.run_to(1);
       CHECK(StateNorms(motion.relaxation()).residual(1, motion.u()) < 1e-12);
-      CHECK(largest_magnitude(motion.u()) < 1e-12 * H);
+      CHECK(largest_magnitude(motion.u()) < 1e-12 * ground_depth);
     }
   }
 }
@@ -39,13 +39,14 @@ TEST_CASE(
   CHECK(StateNorms(motion.relaxation()).residual(0, motion.u()) < 1e-5);  // the way over the border is 1e-6 of a cell
   motion.run_to(1);
   CHECK(StateNorms(motion.relaxation()).residual(1, motion.u()) < 1e-5);
-  CHECK(largest_magnitude(motion.u()) < 1e-7 * H);
+  CHECK(largest_magnitude(motion.u()) < 1e-7 * ground_depth);
 }
 
 TEST_CASE("level ground thrusts K0 rho g H^2/2 against a smooth wall, less what a fixed base holds") {
   // The nodes' shares add up to Σ V_p σ_xx/Δx, exact for a linear stress. The base's node holds, of that,
   //   h/2 [3/4 σ(h/4) + 1/4 σ(3h/4)] = K0 ρ g h/2 (H − 3h/8)   with the points at h/4 and 3h/4.
-  const double thrust = K0 * weight * H * H / 2, at_base = K0 * weight * h / 2 * (H - 3 * h / 8);
+  constexpr double K0 = 0.3 / 0.7, H = ground_depth, h = 0.125;  // the cells' height
+  const double thrust = K0 * ground_weight * H * H / 2, at_base = K0 * ground_weight * h / 2 * (H - 3 * h / 8);
   for (const std::string base : {"fixed", "roller"}) {
     CAPTURE(base);
     driven::Motion motion(ground({"support[0].kind=" + base}));
@@ -60,8 +61,9 @@ TEST_CASE("level ground stands through its phases: in a whole run nothing moves 
   CHECK(s.exit_status == 0);
   CHECK(s.phases == 1);
   CHECK(s.residual < 1e-12);
-  CHECK(std::abs(scenes::probe(s, "surface", "u.y")) < 1e-12 * H);
-  CHECK(std::abs(scenes::probe(s, "surface", "stress.yy")) < 1e-9 * weight * H);  // at the surface there is none
+  CHECK(std::abs(scenes::probe(s, "surface", "u.y")) < 1e-12 * ground_depth);
+  CHECK(std::abs(scenes::probe(s, "surface", "stress.yy")) <
+        1e-9 * ground_weight * ground_depth);  // at the surface there is none
 }
 
 TEST_CASE("ground that is at rest from the beginning is found there by every static solver") {

@@ -17,7 +17,9 @@ using namespace stillpoint;
 namespace stillpoint::test {
 namespace {
 
-struct Ended {
+using scenes::with;
+
+struct GridRun {
   Summary summary;
   std::string history;
 };
@@ -29,14 +31,14 @@ double resident_memory() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-Ended run_of(const std::string& text, const std::vector<std::string>& set) {
+GridRun run_of(const std::string& text, const std::vector<std::string>& set) {
   const TemporaryFolder folder;
-  Ended ended{run(load_scene(folder.write("scene.toml", text), set), {.out = folder.path(), .threads = 1}), ""};
+  GridRun ended{run(load_scene(folder.write("scene.toml", text), set), {.out = folder.path(), .threads = 1}), ""};
   ended.history = contents(folder.path() / "history.csv");
   return ended;
 }
 
-const std::string rubber = "[material.m]\nlaw = \"neo-hookean\"\nE = 1e5\nnu = 0.3\nrho = 1000\n";
+const std::string soft_rubber = "[material.m]\nlaw = \"neo-hookean\"\nE = 1e5\nnu = 0.3\nrho = 1000\n";
 
 // A block of 2 × 1.5 that stands on the bottom, between 4 and 6, in cells of 1/4, whose multiples are exact. The grid
 // ends at `ends`.
@@ -63,7 +65,7 @@ at = [4.6, 1.4]
 fields = ["u.y", "stress.yy"]
 [stop]
 steps = 100000
-)toml" + rubber;
+)toml" + soft_rubber;
 
 // A block that stands on the bottom, and another one that flies past it, further than numbers reach at first.
 const std::string flying = R"toml(
@@ -100,18 +102,13 @@ every = 0.2
 [stop]
 time = 3
 residual = 0
-)toml" + rubber;
+)toml" + soft_rubber;
 
 const std::vector<std::string> in_large{"constants.ends=128", "grid.cells=[512, 512]"};
 
-std::vector<std::string> with(std::vector<std::string> settings, const std::vector<std::string>& more) {
-  settings.insert(settings.end(), more.begin(), more.end());
-  return settings;
-}
-
 void same_in_both(const std::string& text, const std::vector<std::string>& settings,
                   const std::vector<std::string>& small, const std::vector<std::string>& large) {
-  const Ended small_grid = run_of(text, with(settings, small)), large_grid = run_of(text, with(settings, large));
+  const GridRun small_grid = run_of(text, with(settings, small)), large_grid = run_of(text, with(settings, large));
   CHECK(small_grid.summary.status == large_grid.summary.status);
   CHECK(small_grid.summary.dofs == large_grid.summary.dofs);
   CHECK(small_grid.history.size() > 100);
@@ -187,7 +184,7 @@ strategy = "auto"
 every = 0.01
 [stop]
 steps = 400
-)toml" + rubber;
+)toml" + soft_rubber;
   same_in_both(ball, {}, {}, {"constants.ends=32", "grid.cells=[64, 64, 64]"});
 }
 

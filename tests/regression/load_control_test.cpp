@@ -16,7 +16,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 /// To the end, beyond the limit.
-LoadFigures driven(const std::string& scene, std::vector<std::string> overrides) {
+LoadFigures driven_load(const std::string& scene, std::vector<std::string> overrides) {
   overrides.insert(overrides.begin(), "stop.load_growth=0");
   const Summary summary = run(scenes::load(scene, overrides));
   REQUIRE(summary.status == RunStatus::end_time);
@@ -25,7 +25,7 @@ LoadFigures driven(const std::string& scene, std::vector<std::string> overrides)
 }
 
 /// The block pulled by its top as a whole, up to a mean displacement of 0.02 and held there.
-std::vector<std::string> pulled(std::vector<std::string> more) {
+std::vector<std::string> pulled_block(std::vector<std::string> more) {
   more.insert(more.begin(), {"material.rubber.law=linear-elastic", "traction=[{face='top', value=[0.0, 0.5]}]",
                              "load={displacement='0.02*min(t/20, 1)'}", "stop={residual=0, time=60}", "probe=[]"});
   return more;
@@ -37,7 +37,7 @@ TEST_CASE("the factor that a displacement takes is the load that has that displa
   // σ = E' ε in plane strain, free to the side, E' = E/(1 − ν²): for u = 0.02 of 1 with t = 0.5, λ = 0.04 E'
   for (const std::string basis : {"linear", "quadratic"}) {
     CAPTURE(basis);
-    const LoadFigures load = driven("block", pulled({"grid.basis=" + basis, "body.points_per_cell=9"}));
+    const LoadFigures load = driven_load("block", pulled_block({"grid.basis=" + basis, "body.points_per_cell=9"}));
     CHECK(load.displacement < 0.02);  // by λ P/k, of a spring about as stiff as a cell
     CHECK(load.displacement > 0.015);
     CHECK(load.factor / load.displacement == Approx(2 / (1 - 0.3 * 0.3)).epsilon(1e-4));  // what still swings
@@ -45,13 +45,13 @@ TEST_CASE("the factor that a displacement takes is the load that has that displa
 }
 
 TEST_CASE("a strip footing on clay carries Prandtl's limit load within 3 %, and no more however far it is driven") {
-  const LoadFigures load = driven("footing_limit", {});
+  const LoadFigures load = driven_load("footing_limit", {});
   CHECK(load.factor == Approx(2 + M_PI).epsilon(0.03));
   CHECK(load.largest_factor == Approx(load.factor).epsilon(0.005));
-  const LoadFigures half = driven("footing_limit", {"load.displacement=1.5e-3*t/4"});
+  const LoadFigures half = driven_load("footing_limit", {"load.displacement=1.5e-3*t/4"});
   CHECK(load.factor == Approx(half.factor).epsilon(0.005));
   // Without the mean dilatation the same cells carry half as much again, and ever more.
-  CHECK(driven("footing_limit", {"phase.dilatation=points"}).factor > 1.25 * load.factor);
+  CHECK(driven_load("footing_limit", {"phase.dilatation=points"}).factor > 1.25 * load.factor);
 }
 
 TEST_CASE("a run that asks for the limit load ends there, early, with the factor that all the rest of its way has") {
@@ -60,14 +60,14 @@ TEST_CASE("a run that asks for the limit load ends there, early, with the factor
   CHECK(s.exit_status == 0);
   CHECK(s.t < 2);  // of 4 s
   REQUIRE(s.load);
-  CHECK(s.load->factor == Approx(driven("footing_limit", {}).factor).epsilon(0.005));
+  CHECK(s.load->factor == Approx(driven_load("footing_limit", {}).factor).epsilon(0.005));
   CHECK(s.load->growth.value() <= 0.01);
   CHECK_THAT(s.reason, Contains("the limit load"));
 }
 
 TEST_CASE("a limit load that was asked for and is not found is no success, and the summary tells how the load grows") {
-  const Summary s = run(
-      scenes::load("block", pulled({"stop={residual=0, time=15, load_growth=0.01}", "integrator.step_fraction=0.2"})));
+  const Summary s = run(scenes::load(
+      "block", pulled_block({"stop={residual=0, time=15, load_growth=0.01}", "integrator.step_fraction=0.2"})));
   CHECK(s.status == RunStatus::end_time);
   CHECK(s.exit_status == 3);
   CHECK(s.load.value().growth.value() == Approx(1).epsilon(0.1));  // elastic; what damping bears besides
@@ -82,8 +82,8 @@ TEST_CASE("soil that dilates carries Prandtl's limit load within 1 % on cells of
     const std::string soil = fmt::format(
         "material.clay={{law='drucker-prager', E=1e9, nu=0.3, rho=1800, phi={0}, psi={0}, c='c', cone='plane-strain'}}",
         phi);
-    const LoadFigures load =
-        driven("footing_limit", {soil, "grid.cells=[30, 20]", "body.points_per_cell=1", "phase.dilatation=points"});
+    const LoadFigures load = driven_load(
+        "footing_limit", {soil, "grid.cells=[30, 20]", "body.points_per_cell=1", "phase.dilatation=points"});
     CHECK(load.factor == Approx(exact).epsilon(0.01));
     CHECK(load.largest_factor == Approx(load.factor).epsilon(0.005));
   }
@@ -91,8 +91,8 @@ TEST_CASE("soil that dilates carries Prandtl's limit load within 1 % on cells of
 
 TEST_CASE("past the limit the factor falls with the strength of a soil that softens, and the peak is remembered") {
   const LoadFigures load =
-      driven("footing_limit", {"material.clay={law='drucker-prager', E=1e9, nu=0.3, rho=1800, phi=0, c='c', "
-                               "c_residual=3e3, softening_strain=0.004, cone='plane-strain'}"});
+      driven_load("footing_limit", {"material.clay={law='drucker-prager', E=1e9, nu=0.3, rho=1800, phi=0, c='c', "
+                                    "c_residual=3e3, softening_strain=0.004, cone='plane-strain'}"});
   CHECK(load.largest_factor > 1.2 * load.factor);
   CHECK(load.factor > 0.3 * (2 + M_PI));  // of the residual strength, and what has not softened yet
 }
@@ -100,7 +100,7 @@ TEST_CASE("past the limit the factor falls with the strength of a soil that soft
 TEST_CASE("loads that are not driven act as they are given: a surcharge beside the footing adds itself to its limit") {
   // N_q = 1 for φ = 0: p = N_c c + q
   const std::string surcharge = "{line=[['B', 4.0], [6.0, 4.0]], value=[0.0, '-c']}";
-  const LoadFigures load = driven(
+  const LoadFigures load = driven_load(
       "footing_limit",
       {"traction=[{line=[[0.0, 4.0], ['B', 4.0]], value=[0.0, '-c']}, " + surcharge + "]", "load.of=['traction[0]']"});
   CHECK(load.factor == Approx(2 + M_PI + 1).epsilon(0.03));
@@ -128,8 +128,8 @@ TEST_CASE(
 TEST_CASE("supports bear what is driven as well, where it acts on what they hold") {
   // A block that its own weight presses onto its base: the functions there take an eighth of it at once.
   const Summary s = run(scenes::load(
-      "block", pulled({"traction=[]", "body_force.value=[0.0, -1.0]", "load.displacement=-1e-3*min(t/20, 1)",
-                       "support=[{face='bottom', name='base'}, {face='left', kind='roller'}]"})));
+      "block", pulled_block({"traction=[]", "body_force.value=[0.0, -1.0]", "load.displacement=-1e-3*min(t/20, 1)",
+                             "support=[{face='bottom', name='base'}, {face='left', kind='roller'}]"})));
   REQUIRE(s.load);
   const double weight = 1;                                                            // ρ g V
   CHECK(s.reactions.at("base")[1] == Approx(s.load->factor * weight).epsilon(1e-3));  // but for what still swings
@@ -149,10 +149,11 @@ TEST_CASE("a free body that loads drive has the momentum of their impulse, not t
 TEST_CASE("what a displacement cannot drive is refused at its key") {
   CHECK_THAT(scenes::refusal("level_ground", {"load.displacement=1e-3*t", "stop.time=1"}),
              Contains("initial.geostatic") && Contains("drives it"));
-  CHECK_THAT(scenes::refusal("block", pulled({"traction=[]"})), Contains("load") && Contains("there are none"));
-  CHECK_THAT(scenes::refusal("block", pulled({"load.of=['traction[1]']"})),
+  CHECK_THAT(scenes::refusal("block", pulled_block({"traction=[]"})), Contains("load") && Contains("there are none"));
+  CHECK_THAT(scenes::refusal("block", pulled_block({"load.of=['traction[1]']"})),
              Contains("load.of") && Contains("traction[0]"));
-  CHECK_THAT(scenes::refusal("block", pulled({"traction=[{face='top', value=[0.0, 't']}]"})), Contains("depends on t"));
-  CHECK_THAT(scenes::refusal("block", pulled({"solve.method=newton"})), Contains("static solver"));
-  CHECK_THAT(scenes::refusal("block", pulled({"stop.time=0"})), Contains("stop.time"));
+  CHECK_THAT(scenes::refusal("block", pulled_block({"traction=[{face='top', value=[0.0, 't']}]"})),
+             Contains("depends on t"));
+  CHECK_THAT(scenes::refusal("block", pulled_block({"solve.method=newton"})), Contains("static solver"));
+  CHECK_THAT(scenes::refusal("block", pulled_block({"stop.time=0"})), Contains("stop.time"));
 }

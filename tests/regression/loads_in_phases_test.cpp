@@ -10,18 +10,15 @@
 #include <fmt/format.h>
 
 #include "scenes.hpp"
-#include "temporary_folder.hpp"
 
 using namespace stillpoint;
-using stillpoint::test::TemporaryFolder;
+using scenes::run_text;
 
 namespace {
 
-constexpr double nu = 0.3;
-
 /// λ with P(λ) = traction in uniaxial strain (E = 1).
 double stretch_under(double traction, const std::string& law) {
-  const LameParameters m = LameParameters::from(1, nu);
+  const LameParameters m = LameParameters::from(1, 0.3);
   const auto P = [&](double stretch) {
     const Gradient<StressState::plane_strain> H{stretch - 1, 0, 0, 0};
     return law == "hencky" ? Hencky<StressState::plane_strain>(m).first_piola(H)[0]
@@ -32,14 +29,9 @@ double stretch_under(double traction, const std::string& law) {
   return (low + high) / 2;
 }
 
-Summary run_text(const std::string& text, const std::vector<std::string>& overrides) {
-  const TemporaryFolder folder;
-  return run(load_scene(folder.write("scene.toml", text), overrides), {.threads = 1});
-}
-
 /// A column of unit length between smooth sides, with half of its grid empty, under a traction on its end that comes
 /// within twenty units of time.
-Summary column(int dim, const std::string& law, double traction, std::vector<std::string> overrides) {
+Summary loaded_column(int dim, const std::string& law, double traction, std::vector<std::string> overrides) {
   const std::string common = R"(
 [material.m]
 E = 1
@@ -172,8 +164,8 @@ TEST_CASE("a column under a traction takes its closed stretch through phases, in
         const double exact = stretch_under(traction, law) - 1;
         for (const std::string basis : {"linear", "quadratic", "cubic"}) {
           const bool linear = basis == "linear";
-          const Summary s = column(dim, law, traction,
-                                   {"grid.basis=" + basis, linear ? "phase.max_motion=0.5" : "phase.max_motion=0.1"});
+          const Summary s = loaded_column(
+              dim, law, traction, {"grid.basis=" + basis, linear ? "phase.max_motion=0.5" : "phase.max_motion=0.1"});
           CAPTURE(dim, law, traction, basis, s.reason, s.phases);
           CHECK(s.status == RunStatus::equilibrium);
           CHECK(s.phases >= (linear ? 4 : 20));
@@ -267,7 +259,7 @@ TEST_CASE("a force that draws out the corner of a body until its domain folds fi
 
 TEST_CASE("a column under a sudden load stands on its roller for 100 000 steps and loses no point") {
   for (const std::string basis : {"linear", "quadratic", "cubic"}) {
-    const Summary s = column(
+    const Summary s = loaded_column(
         1, "hencky", 0,
         {"traction=[]", "support=[{face='left', kind='roller'}]", "body_force={value=-0.5}", "grid.basis=" + basis,
          "phase.max_motion=0.1", "grid.cells=16", "damping.c=0.02", "stop={residual=0, steps=100000}", "probe=[]"});

@@ -20,7 +20,7 @@ const std::string hexahedra =
     "$Elements\n2\n1 5 2 1 1 1 2 3 4 5 6 7 8\n2 5 2 2 2 5 6 7 8 9 10 11 12\n$EndElements\n";
 
 /// Two blocks on each other, whose borders lie in the middle of cells, under their weight between smooth sides.
-const std::string column = R"(
+const std::string meshed_column = R"(
 dim = 3
 [grid]
 min = [0, 0, 0]
@@ -78,7 +78,7 @@ TEST_CASE("a plate with a hole, of two groups of a mesh, meets Kirsch's solution
 TEST_CASE("two volumes of a mesh are a column as high as both, and bear their weight") {
   const TemporaryFolder folder;
   folder.write("column.msh", hexahedra);
-  const Summary s = run(load_scene(folder.write("column.toml", column)));
+  const Summary s = run(load_scene(folder.write("column.toml", meshed_column)));
   CHECK(s.exit_status == 0);
   CHECK(s.reactions.at("base").at(1) == Approx(1000 * 10 * 1.7).epsilon(1e-9));
 }
@@ -87,7 +87,7 @@ TEST_CASE("a mesh that reaches out of the grid, or has no such group, is refused
   const TemporaryFolder folder;
   folder.write("column.msh", hexahedra);
   const auto refuses = [&](const std::string& what, const std::string& by, const std::string& message) {
-    std::string text = column;
+    std::string text = meshed_column;
     text.replace(text.find(what), what.size(), by);
     CHECK_THROWS_WITH(load_scene(folder.write("column.toml", text)), Catch::Contains(message));
   };

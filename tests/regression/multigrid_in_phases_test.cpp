@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "linalg/multigrid.hpp"
+#include "multigrid_runs.hpp"
 #include "scenes.hpp"
 #include "simulation/setup/model.hpp"
 #include "simulation/setup/multigrid_mass.hpp"
@@ -18,22 +18,13 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-#define REQUIRE_MULTIGRID() \
-  if (!multigrid_is_missing().empty()) return
-
 /// A block that its pressure makes shorter by several cells each way.
-std::vector<std::string> pressed(std::vector<std::string> others) {
+std::vector<std::string> pressed_block(std::vector<std::string> others) {
   others.insert(others.begin(), {"phase.max_motion=0.3", "grid.cells=[40,40]", "stop.residual=1e-8"});
   return others;
 }
 
-Simulation run(const std::vector<std::string>& set) {
-  Simulation simulation(scenes::load("block", pressed(set)));
-  simulation.run();
-  CAPTURE(simulation.reason());
-  CHECK(simulation.status() == RunStatus::equilibrium);
-  return simulation;
-}
+Simulation run(const std::vector<std::string>& set) { return test::run("block", pressed_block(set)); }
 
 }  // namespace
 
@@ -53,8 +44,8 @@ TEST_CASE(
 TEST_CASE("the cycle of multigrid is kept for a phase that it serves, and made anew for one that it does not") {
   REQUIRE_MULTIGRID();
   const auto phase = [](const char* max) {
-    return make_phase(scenes::load(
-        "block", pressed({std::string("body.max=[") + max + "," + max + "]", "probe=[]", "damping.strategy=auto"})));
+    return make_phase(scenes::load("block", pressed_block({std::string("body.max=[") + max + "," + max + "]",
+                                                           "probe=[]", "damping.strategy=auto"})));
   };
   const auto half = phase("0.5"), fewer = phase("0.475"), whole = phase("1");
   const MultigridAttempt first = next_multigrid_mass(*half, nullptr);
@@ -70,8 +61,10 @@ TEST_CASE("the cycle of multigrid is kept for a phase that it serves, and made a
 
 TEST_CASE("phases with a multigrid mass are for auto alone, and for what does not remember") {
   REQUIRE_MULTIGRID();
-  CHECK_THROWS_WITH(make_model(scenes::load("block", pressed({"mass.kind=multigrid", "damping.strategy=viscous"}))),
-                    Contains("mass.kind") && Contains("\"auto\""));
-  CHECK_THROWS_WITH(make_model(scenes::load("block", pressed({"mass.kind=multigrid", "damping.strategy=kinetic"}))),
-                    Contains("mass.kind") && Contains("\"auto\""));
+  CHECK_THROWS_WITH(
+      make_model(scenes::load("block", pressed_block({"mass.kind=multigrid", "damping.strategy=viscous"}))),
+      Contains("mass.kind") && Contains("\"auto\""));
+  CHECK_THROWS_WITH(
+      make_model(scenes::load("block", pressed_block({"mass.kind=multigrid", "damping.strategy=kinetic"}))),
+      Contains("mass.kind") && Contains("\"auto\""));
 }

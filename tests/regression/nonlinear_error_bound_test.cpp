@@ -15,13 +15,13 @@ using namespace stillpoint::test;
 
 namespace {
 
-struct Ended {
+struct EndOfRun {
   Summary summary;
   Values u;
   std::shared_ptr<const LagrangianPhase> phase;  // for its mass
 };
-Ended ended(const Scene& scene) {
-  Ended result;
+EndOfRun ended(const Scene& scene) {
+  EndOfRun result;
   result.phase = make_phase(scene);
   Simulation simulation(scene);
   simulation.run();
@@ -30,7 +30,9 @@ Ended ended(const Scene& scene) {
   return result;
 }
 
-double error_of(const Ended& end, const Values& rest) { return relative_difference(end.phase->mass(), end.u, rest); }
+double error_at_end(const EndOfRun& end, const Values& rest) {
+  return relative_difference(end.phase->mass(), end.u, rest);
+}
 
 const Case soft_column{
     "column", {"material.soil.law=neo-hookean", "constants.E=784800", "phase.max_motion=none"}};  // ρ g H = E/4
@@ -43,10 +45,10 @@ TEST_CASE("relaxation and Newton's method agree to the error bound at large stra
   for (const Case& problem : {soft_column, short_cantilever}) {
     const Values rest = equilibrium_of(with(problem, "viscous"));
     for (const std::string strategy : {"viscous", "auto", "kinetic"}) {
-      const Ended end = ended(with(problem, strategy, {"stop.residual=1e-5"}));
+      const EndOfRun end = ended(with(problem, strategy, {"stop.residual=1e-5"}));
       REQUIRE(end.summary.status == RunStatus::equilibrium);
       REQUIRE(end.summary.distance);
-      const double error = error_of(end, rest), ratio = *end.summary.distance / error;
+      const double error = error_at_end(end, rest), ratio = *end.summary.distance / error;
       CAPTURE(problem.name, strategy, error, ratio);
       CHECK(ratio > 0.9);
       CHECK(ratio < 30);  // 1 where the slowest mode is left, more where a reset of v leaves others
@@ -60,10 +62,10 @@ TEST_CASE("relaxation and Newton's method agree to the error bound where soil yi
   const Scene scene =
       scenes::load("column", {"phase.max_motion=none", "damping.c=500", "stop.residual=1e-6",
                               "material.soil={law='drucker-prager', E=2e9, nu=0.2, rho=2000, phi=20, psi=20, c=1000}"});
-  const Ended end = ended(scene);
+  const EndOfRun end = ended(scene);
   REQUIRE(end.summary.status == RunStatus::equilibrium);
   REQUIRE(end.summary.distance);
-  const double error = error_of(end, equilibrium_of(scene)), ratio = *end.summary.distance / error;
+  const double error = error_at_end(end, equilibrium_of(scene)), ratio = *end.summary.distance / error;
   CAPTURE(error, ratio);
   CHECK(ratio > 0.5);
   CHECK(ratio < 20);
@@ -74,11 +76,11 @@ TEST_CASE("relaxation and Newton's method agree to the error bound where soil yi
 TEST_CASE("where ground yields the distance is that to the equilibrium that the same run comes to later",
           "[error bound]") {
   for (const std::string strategy : {"viscous", "kinetic", "one-sided"}) {
-    const Ended end = ended(with(small_footing, strategy, {"stop.residual=1e-4"}));
-    const Ended later = ended(with(small_footing, strategy, {"stop.residual=1e-10"}));
+    const EndOfRun end = ended(with(small_footing, strategy, {"stop.residual=1e-4"}));
+    const EndOfRun later = ended(with(small_footing, strategy, {"stop.residual=1e-10"}));
     REQUIRE(later.summary.status == RunStatus::equilibrium);
     REQUIRE(end.summary.distance);
-    const double error = error_of(end, later.u), ratio = *end.summary.distance / error;
+    const double error = error_at_end(end, later.u), ratio = *end.summary.distance / error;
     CAPTURE(strategy, error, ratio);
     CHECK(ratio > 0.5);
     CHECK(ratio < 20);
@@ -88,11 +90,11 @@ TEST_CASE("where ground yields the distance is that to the equilibrium that the 
 // With a consistent mass local damping may turn forces into higher modes: this motion grows by 1e8, and comes back.
 TEST_CASE("a step that is not stable makes no equilibrium by the size of what it blew up", "[error bound]") {
   const Scene scene = with({"hard/blown_up", {"stop.steps=20000"}}, "one-sided");
-  const Ended end = ended(scene);
+  const EndOfRun end = ended(scene);
   const Values rest = equilibrium_of(scenes::load("hard/blown_up", {"support=[{face='bottom'}, {face='top', "
                                                                     "kind='roller', u=-0.0005386}]"}));
   CAPTURE(end.summary.reason);
-  CHECK((end.summary.exit_status != 0 || error_of(end, rest) < 0.01));
+  CHECK((end.summary.exit_status != 0 || error_at_end(end, rest) < 0.01));
 }
 
 // A small residual is one beside the stiff bar's forces.
@@ -105,10 +107,10 @@ TEST_CASE("Newton's methods go on until a soft bar beside a stiff one is right a
     const Values rest = equilibrium_of(with(problem, "viscous"));
     for (const std::string method : {"newton", "newton-cg"}) {
       for (const std::string residual : {"stop.residual=1e-3", "stop.residual=1e-4", "stop.residual=1e-6"}) {
-        const Ended end = ended(with(problem, method, {residual}));
+        const EndOfRun end = ended(with(problem, method, {residual}));
         CAPTURE(overrides.size(), method, residual, end.summary.reason);
         CHECK(end.summary.status == RunStatus::equilibrium);
-        CHECK(error_of(end, rest) <= 1e-3);
+        CHECK(error_at_end(end, rest) <= 1e-3);
       }
     }
   }
@@ -118,10 +120,10 @@ TEST_CASE("Newton's methods go on until a soft bar beside a stiff one is right a
 TEST_CASE("a static solver finds no equilibrium of a soft bar under more than it can bear, whatever a stiff one bears",
           "[error bound]") {
   for (const std::string method : {"newton", "newton-cg", "cg", "lbfgs"}) {
-    const Ended end = ended(with({"hard/soft_and_stiff",
-                                  {"material.soft.law=hencky", "material.stiff.law=hencky", "phase.max_motion=none",
-                                   "force=[{at=6, value=1e6}, {at=9, value=-1e6}, {at=10, value=0.6}]"}},
-                                 method));
+    const EndOfRun end = ended(with({"hard/soft_and_stiff",
+                                     {"material.soft.law=hencky", "material.stiff.law=hencky", "phase.max_motion=none",
+                                      "force=[{at=6, value=1e6}, {at=9, value=-1e6}, {at=10, value=0.6}]"}},
+                                    method));
     CAPTURE(method, end.summary.reason);
     CHECK((end.summary.status == RunStatus::failed || end.summary.status == RunStatus::unstable_equilibrium));
     CHECK(end.summary.exit_status != 0);
@@ -134,14 +136,14 @@ TEST_CASE("a run that stops by the distance alone is in equilibrium and no furth
     const Values rest = equilibrium_of(with(problem, "viscous"));
     for (const std::string strategy : {"viscous", "kinetic", "one-sided", "auto"}) {
       const double wanted = 1e-4;
-      const Ended end = ended(with(problem, strategy, {"stop.residual=0", "stop.distance=1e-4", "stop.hold=0"}));
+      const EndOfRun end = ended(with(problem, strategy, {"stop.residual=0", "stop.distance=1e-4", "stop.hold=0"}));
       CAPTURE(problem.name, strategy, end.summary.reason);
       CHECK(end.summary.status == RunStatus::equilibrium);
       CHECK(end.summary.exit_status == 0);
       CHECK_THAT(end.summary.reason, Catch::Contains("distance"));
       CHECK(end.summary.distance.value() <= wanted);
       CHECK(end.summary.distance.value() > 0);
-      CHECK(error_of(end, rest) <= wanted * (1 + wanted));
+      CHECK(error_at_end(end, rest) <= wanted * (1 + wanted));
       // And it did not go on until there was nothing left, which auto does on the chain in the step that is near
       // enough.
       if (strategy != "auto") CHECK(end.summary.residual > 1e-9);
@@ -151,8 +153,8 @@ TEST_CASE("a run that stops by the distance alone is in equilibrium and no furth
 
 TEST_CASE("of a body that stiffens the run stops by the distance with the tangent that it then has", "[error bound]") {
   const Scene scene = with(soft_column, "viscous", {"stop.residual=0", "stop.distance=1e-4", "stop.hold=0"});
-  const Ended end = ended(scene);
+  const EndOfRun end = ended(scene);
   CHECK(end.summary.status == RunStatus::equilibrium);
   CHECK(end.summary.distance.value() <= 1e-4);
-  CHECK(error_of(end, equilibrium_of(scene)) <= 1e-4);
+  CHECK(error_at_end(end, equilibrium_of(scene)) <= 1e-4);
 }

@@ -13,13 +13,9 @@
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
+using scenes::with;
 
 namespace {
-
-std::vector<std::string> with(std::vector<std::string> all, const std::vector<std::string>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
 
 /// A column under its own weight, and the same from its points.
 std::vector<std::string> column_of(const std::string& law) {

@@ -21,7 +21,7 @@ using test::compiled_umat, test::TemporaryFolder;
 namespace {
 
 // A block on a rough floor, so heavy and pushed so hard aside that it flows and turns.
-std::string block(const std::string& state, const std::string& material, int cells = 6) {
+std::string flowing_block(const std::string& state, const std::string& material, int cells = 6) {
   const bool in_space = state == "space";
   const auto vector = [&](const std::string& plane, const std::string& z) {
     return "[" + plane + (in_space ? ", " + z : "") + "]";
@@ -104,8 +104,8 @@ TEST_CASE("a block of a UMAT in Fortran or C moves and flows as one of the built
       for (const char* library : {"fortran", "c"}) {
         CAPTURE(state, motion, library);
         const int steps = 120;
-        const Fields own = after(steps, scene_of(folder, block(state, umat(library)), {motion}));
-        check_same(own, after(steps, scene_of(folder, block(state, built_in), {motion})), 1e-10);
+        const Fields own = after(steps, scene_of(folder, flowing_block(state, umat(library)), {motion}));
+        check_same(own, after(steps, scene_of(folder, flowing_block(state, built_in), {motion})), 1e-10);
         CHECK(largest_value(own.plastic_strain) > 1e-4);
       }
     }
@@ -154,8 +154,9 @@ TEST_CASE("a law with a history that a program adds moves points as the built-in
   for (const char* state : {"plane-strain", "axisymmetric", "space"}) {
     CAPTURE(state);
     const Fields own =
-        after(60, scene_of(folder, block(state, "law = \"my-cone\"\nE = 1e4\nnu = 0.3\nrho = 1\nc = 2.5")));
-    check_same(own, after(60, scene_of(folder, block(state, built_in))), 1e-12);  // rounding of other instructions
+        after(60, scene_of(folder, flowing_block(state, "law = \"my-cone\"\nE = 1e4\nnu = 0.3\nrho = 1\nc = 2.5")));
+    check_same(own, after(60, scene_of(folder, flowing_block(state, built_in))),
+               1e-12);  // rounding of other instructions
   }
 }
 
@@ -164,7 +165,8 @@ TEST_CASE("a UMAT has the same bits with one and with two threads, whether or no
   compiled_umat(folder, "von_mises.f", "fortran");
   compiled_umat(folder, "von_mises.c", "counts", "-DCOUNTS");
   for (const char* library : {"fortran", "counts"}) {
-    const Scene scene = scene_of(folder, block("plane-strain", umat(library), 96), {"body_force.value=[4e4, -12e4]"});
+    const Scene scene =
+        scene_of(folder, flowing_block("plane-strain", umat(library), 96), {"body_force.value=[4e4, -12e4]"});
     check_same(after(12, scene, 2), after(12, scene, 1), 0);
   }
 }
@@ -172,7 +174,7 @@ TEST_CASE("a UMAT has the same bits with one and with two threads, whether or no
 TEST_CASE("a run of a UMAT that is broken off and resumed has the bits of the unbroken one, in phases") {
   const TemporaryFolder folder, whole, broken;
   compiled_umat(folder, "von_mises.f", "fortran");
-  const Scene scene = scene_of(folder, block("plane-strain", umat("fortran")),
+  const Scene scene = scene_of(folder, flowing_block("plane-strain", umat("fortran")),
                                {"phase.max_motion=0.01", "stop.steps=90", "output.every=0.001"});
   run(scene, {.out = whole.path()});
   {
@@ -191,7 +193,7 @@ TEST_CASE("Newton's method finds with a UMAT what it finds with the built-in law
   compiled_umat(folder, "von_mises.f", "fortran");
   const auto solved = [&](const std::string& material) {
     Simulation simulation(
-        scene_of(folder, block("plane-strain", material),
+        scene_of(folder, flowing_block("plane-strain", material),
                  {"solve.method=newton", "solve.load_steps=4", "stop.residual=1e-11", "body_force.value=[2, -3]"}),
         {.threads = 1});
     CHECK(simulation.run() == RunStatus::equilibrium);
@@ -212,7 +214,7 @@ TEST_CASE("where no static solver finds a way since a UMAT gives no answer, the 
   for (const char* method : {"newton", "lbfgs", "cg"}) {
     CAPTURE(method);
     Simulation simulation(
-        scene_of(folder, block("plane-strain", material),
+        scene_of(folder, flowing_block("plane-strain", material),
                  {std::string("solve.method=") + method, "solve.load_steps=1", "body_force.value=[2e3, -3e3]"}),
         {.threads = 1});
     CHECK(simulation.run() != RunStatus::equilibrium);
@@ -225,16 +227,16 @@ TEST_CASE("a UMAT stands for the effective stress of undrained ground") {
   const TemporaryFolder folder;
   compiled_umat(folder, "von_mises.c", "c");
   const std::string water = "\nundrained = true\nwater_modulus = 1e5\nporosity = 0.5\n";
-  const Fields own = after(60, scene_of(folder, block("plane-strain", umat("c", water))));
-  check_same(own, after(60, scene_of(folder, block("plane-strain", built_in + water))), 1e-10);
-  CHECK(refusal(folder, block("plane-strain", umat("c", "undrained = true"))).find("needs a water_modulus") !=
+  const Fields own = after(60, scene_of(folder, flowing_block("plane-strain", umat("c", water))));
+  check_same(own, after(60, scene_of(folder, flowing_block("plane-strain", built_in + water))), 1e-10);
+  CHECK(refusal(folder, flowing_block("plane-strain", umat("c", "undrained = true"))).find("needs a water_modulus") !=
         std::string::npos);
 }
 
 TEST_CASE("a static solver halves its increments for a UMAT that asks for smaller ones") {
   const TemporaryFolder folder;
   compiled_umat(folder, "faulty.c", "shortens", "-DSHORTENS");
-  std::string text = block("plane-strain", "law = \"umat\"\nlibrary = \"shortens.so\"\nrho = 1");
+  std::string text = flowing_block("plane-strain", "law = \"umat\"\nlibrary = \"shortens.so\"\nrho = 1");
   Simulation simulation(
       scene_of(folder, text, {"solve.method=newton", "stop.residual=1e-9", "body_force.value=[0, -10]"}),
       {.threads = 1});
@@ -246,33 +248,34 @@ TEST_CASE("what is wrong with a UMAT is told at its key, before anything moves")
   const TemporaryFolder folder;
   const auto faulty = [&](const std::string& fault, const std::vector<std::string>& set = {}) {
     compiled_umat(folder, "faulty.c", fault, "-D" + fault + " -Wl,--unresolved-symbols=ignore-all");
-    return refusal(folder,
-                   block("plane-strain", "law = \"umat\"\nlibrary = \"" + fault + ".so\"\nprops = [1]\nrho = 1"), set);
+    return refusal(
+        folder, flowing_block("plane-strain", "law = \"umat\"\nlibrary = \"" + fault + ".so\"\nprops = [1]\nrho = 1"),
+        set);
   };
   const auto says = [](const std::string& text, const std::string& what) {
     INFO(text);
     CHECK(text.find(what) != std::string::npos);
   };
   const std::string line = "scene.toml:12:11: ", key = line + "material.m.library: ";
-  says(refusal(folder, block("plane-strain", umat("nothing"))), key + "there is no file");
+  says(refusal(folder, flowing_block("plane-strain", umat("nothing"))), key + "there is no file");
   folder.write("text.so", "no library");
-  says(refusal(folder, block("plane-strain", umat("text"))),
+  says(refusal(folder, flowing_block("plane-strain", umat("text"))),
        key + "'" + (folder.path() / "text.so").string() + "' cannot");
   compiled_umat(folder, "faulty.c", "nobody", "-DCALLS_NOBODY");
-  says(refusal(folder, block("plane-strain", umat("nobody"))), "undefined symbol: is_nowhere_");
+  says(refusal(folder, flowing_block("plane-strain", umat("nobody"))), "undefined symbol: is_nowhere_");
   compiled_umat(folder, "faulty.c", "other", "-DNAME=other_");
-  says(refusal(folder, block("plane-strain", umat("other"))), key);
+  says(refusal(folder, flowing_block("plane-strain", umat("other"))), key);
   says(faulty("NO_NUMBER"), line + "the UMAT returns STRESS = [nan");
   says(faulty("UNSTABLE"), line + "the UMAT returns a DDSDDE that is not positive definite");
   says(faulty("TIRES"), line + "the UMAT answers a call that is repeated with another");
   says(faulty("LEAVES_AT_ONCE"), line + "the UMAT calls XIT in its first call");
   says(faulty("VISCOUS", {"solve.method=newton"}), "'newton' has no time, and the law 'umat' of material.m answers");
   CHECK(faulty("COUNTS") == "accepted");
-  says(refusal(folder, block("plane-strain", umat("other", "statev = [\"a\", \"a\"]"))), "statev");
+  says(refusal(folder, flowing_block("plane-strain", umat("other", "statev = [\"a\", \"a\"]"))), "statev");
   const auto with_names = [&](const std::string& names) {
     compiled_umat(folder, "von_mises.c", "c");
-    return refusal(folder, block("plane-strain", "law = \"umat\"\nlibrary = \"c.so\"\nstatev = " + names +
-                                                     "\nprops = [1e4, 0.3, 1]\nrho = 1"));
+    return refusal(folder, flowing_block("plane-strain", "law = \"umat\"\nlibrary = \"c.so\"\nstatev = " + names +
+                                                             "\nprops = [1e4, 0.3, 1]\nrho = 1"));
   };
   says(with_names("[\"a\", \"a\"]"), "scene.toml:13:16: material.m.statev[1]: there are two state variables 'a'");
   says(with_names("[\"stress\"]"), "there is a field 'stress' already");
@@ -283,7 +286,7 @@ TEST_CASE("what is wrong with a UMAT is told at its key, before anything moves")
 TEST_CASE("level ground of a UMAT that cannot do without pressure rests under its initial stress") {
   const TemporaryFolder folder;
   compiled_umat(folder, "faulty.c", "soil", "-DNEEDS_PRESSURE -Wl,--unresolved-symbols=ignore-all");
-  std::string text = block("plane-strain", "law = \"umat\"\nlibrary = \"soil.so\"\nrho = 1");
+  std::string text = flowing_block("plane-strain", "law = \"umat\"\nlibrary = \"soil.so\"\nrho = 1");
   text += "[[support]]\nface = \"left\"\nkind = \"roller\"\n[[support]]\nface = \"right\"\nkind = \"roller\"\n";
   const std::vector<std::string> level = {"solve.method=newton", "stop.residual=1e-9", "body_force.value=[0, -10]",
                                           "grid.max=[1, 1.5]", "grid.cells=[4, 6]"};
@@ -301,7 +304,7 @@ TEST_CASE("a run tells that a UMAT keeps state, and ends where it calls XIT") {
   compiled_umat(folder, "faulty.c", "counts", "-DCOUNTS" + options);
   compiled_umat(folder, "faulty.c", "leaves", "-DLEAVES" + options);
   const auto text = [](const std::string& library) {
-    return block("plane-strain", "law = \"umat\"\nlibrary = \"" + library + ".so\"\nrho = 1");
+    return flowing_block("plane-strain", "law = \"umat\"\nlibrary = \"" + library + ".so\"\nrho = 1");
   };
   const Summary counted = run(scene_of(folder, text("counts"), {"stop.steps=5"}), {});
   REQUIRE_FALSE(counted.notes.empty());

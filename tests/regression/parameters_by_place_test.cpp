@@ -24,20 +24,20 @@ using namespace stillpoint;
 
 namespace {
 
-constexpr double rounding = 1e-12;
+constexpr double to_rounding = 1e-12;
 
 struct TwoLayers {
   std::string law, lower, upper, by_place;  // the parameters of each layer, and those of one material instead of them
 };
-const std::string stiffness = "E='5e6 + 15e6*(y < 5)', rho='600 + 1200*(y < 5)'";
+const std::string by_layer = "E='5e6 + 15e6*(y < 5)', rho='600 + 1200*(y < 5)'";
 const std::vector<TwoLayers> all_laws = {
-    {"linear-elastic", "E=2e7, rho=1800", "E=5e6, rho=600", stiffness},
-    {"neo-hookean", "E=2e7, rho=1800", "E=5e6, rho=600", stiffness},
-    {"hencky", "E=2e7, rho=1800", "E=5e6, rho=600", stiffness},
+    {"linear-elastic", "E=2e7, rho=1800", "E=5e6, rho=600", by_layer},
+    {"neo-hookean", "E=2e7, rho=1800", "E=5e6, rho=600", by_layer},
+    {"hencky", "E=2e7, rho=1800", "E=5e6, rho=600", by_layer},
     {"drucker-prager", "E=2e7, rho=1800, phi=20, c=4e4", "E=5e6, rho=600, phi=20, c=1e4",
-     stiffness + ", phi=20, c='1e4 + 3e4*(y < 5)'"},
+     by_layer + ", phi=20, c='1e4 + 3e4*(y < 5)'"},
     {"mohr-coulomb", "E=2e7, rho=1800, phi=20, c=4e4", "E=5e6, rho=600, phi=20, c=1e4",
-     stiffness + ", phi=20, c='1e4 + 3e4*(y < 5)'"},
+     by_layer + ", phi=20, c='1e4 + 3e4*(y < 5)'"},
 };
 
 std::string material(const std::string& name, const std::string& law, const std::string& parameters) {
@@ -45,7 +45,7 @@ std::string material(const std::string& name, const std::string& law, const std:
 }
 
 /// problems/column.toml without its exact solution, which is of one material that does not move from phase to phase.
-Scene column(const std::vector<std::string>& overrides) {
+Scene layered_column(const std::vector<std::string>& overrides) {
   std::string text = test::contents(std::string(STILLPOINT_PROBLEMS) + "/column.toml");
   const auto from = text.find("[exact]"), to = text.find("[[probe]]");
   if (from == std::string::npos || to == std::string::npos) throw std::logic_error("the scene has other tables");
@@ -95,23 +95,23 @@ std::vector<AtPoint> stresses(const LagrangianPhase& phase) {
 TEST_CASE("one material by place has the forces, the tangents and the masses of two materials in layers") {
   for (const TwoLayers& one : all_laws) {
     CAPTURE(one.law);
-    const auto two = make_phase(column(layers(one, {"phase.max_motion='none'"}))),
-               by_place = make_phase(column(whole(one, {"phase.max_motion='none'"})));
+    const auto two = make_phase(layered_column(layers(one, {"phase.max_motion='none'"}))),
+               by_place = make_phase(layered_column(whole(one, {"phase.max_motion='none'"})));
     const std::size_t n = two->size();
     REQUIRE(by_place->size() == n);
     const std::vector<double> u = test::random_values(n, 1e-2, 1), zero(n, 0.0), ones(n, 1.0);
-    CHECK(relative_difference(statics::internal_force(*two, u), statics::internal_force(*by_place, u)) < rounding);
+    CHECK(relative_difference(statics::internal_force(*two, u), statics::internal_force(*by_place, u)) < to_rounding);
     const std::vector<double> sigma = statics::point_stress(*two, u);  // of a law with a history, none is committed
-    CHECK(largest_difference(sigma, statics::point_stress(*by_place, u)) <= rounding * largest_magnitude(sigma));
+    CHECK(largest_difference(sigma, statics::point_stress(*by_place, u)) <= to_rounding * largest_magnitude(sigma));
     std::vector<double> a(n), b(n);
     two->mass().apply(ones, a);
     by_place->mass().apply(ones, b);
-    CHECK(relative_difference(a, b) < rounding);
+    CHECK(relative_difference(a, b) < to_rounding);
     for (const Tangent kind : {Tangent::elastic, Tangent::consistent}) {
       two->tangents().apply(kind, 0, u, u, a);
       by_place->tangents().apply(kind, 0, u, u, b);
-      CHECK(relative_difference(a, b) < rounding);
-      CHECK(relative_difference(a, product(by_place->tangents().matrix(kind, 0, u), u)) < rounding);
+      CHECK(relative_difference(a, b) < to_rounding);
+      CHECK(relative_difference(a, product(by_place->tangents().matrix(kind, 0, u), u)) < to_rounding);
     }
   }
 }
@@ -123,7 +123,7 @@ TEST_CASE("one material by place comes to rest as two materials in layers do, in
       CAPTURE(one.law, moves_on);
       std::vector<std::string> set = {"phase.max_motion='none'", "stop.residual=1e-9"};
       if (moves_on) set = {"phase.max_motion=0.02", "phase.quadrature=points", "stop.residual=1e-9"};
-      const Summary two = run(column(layers(one, set))), by_place = run(column(whole(one, set)));
+      const Summary two = run(layered_column(layers(one, set))), by_place = run(layered_column(whole(one, set)));
       CHECK(two.status == RunStatus::equilibrium);
       CHECK(by_place.status == RunStatus::equilibrium);
       if (moves_on) CHECK(by_place.phases > 1);
@@ -157,9 +157,9 @@ TEST_CASE("level ground bears a weight whose density varies, under a pressure at
   const auto phase = level_ground({"material.sand.rho='1000*(1 + y)'", "initial.geostatic.K0='0.4 + 0.2*y'"});
   for (const AtPoint& at : stresses(*phase)) {
     const double vertical = -1000 * 9.81 * ((1 - at.y) + (1 - at.y * at.y) / 2);
-    CHECK(at.stress[1] == Approx(vertical).epsilon(rounding));
-    CHECK(at.stress[0] == Approx((0.4 + 0.2 * at.y) * vertical).epsilon(rounding));
-    CHECK(at.stress[2] == Approx((0.4 + 0.2 * at.y) * vertical).epsilon(rounding));
+    CHECK(at.stress[1] == Approx(vertical).epsilon(to_rounding));
+    CHECK(at.stress[0] == Approx((0.4 + 0.2 * at.y) * vertical).epsilon(to_rounding));
+    CHECK(at.stress[2] == Approx((0.4 + 0.2 * at.y) * vertical).epsilon(to_rounding));
   }
 }
 
@@ -173,11 +173,11 @@ TEST_CASE("a step of the density on a line of the grid weighs as two bodies do")
   REQUIRE(a.size() == b.size());
   for (const AtPoint& at : a) {
     const double vertical = -9.81 * (at.y < 0.5 ? 600 * 0.5 + 1800 * (0.5 - at.y) : 600 * (1 - at.y));
-    CHECK(at.stress[1] == Approx(vertical).epsilon(rounding));
+    CHECK(at.stress[1] == Approx(vertical).epsilon(to_rounding));
   }
   for (const AtPoint& at : b) {
     const double vertical = -9.81 * (at.y < 0.5 ? 600 * 0.5 + 1800 * (0.5 - at.y) : 600 * (1 - at.y));
-    CHECK(at.stress[1] == Approx(vertical).epsilon(rounding));
+    CHECK(at.stress[1] == Approx(vertical).epsilon(to_rounding));
   }
 }
 
@@ -191,9 +191,9 @@ TEST_CASE("water at rest presses in the pores below its table, bears a share of 
   const double K0 = 0.3 / 0.7;
   for (std::size_t p = 0; p < all.size(); ++p) {
     const double total = -1800 * 9.81 * (1 - all[p].y), pressure = 1025 * 9.81 * std::max(0.0, 0.75 - all[p].y);
-    CHECK(water[p] == Approx(pressure).epsilon(rounding));
-    CHECK(all[p].stress[1] == Approx(total).epsilon(rounding));
-    CHECK(all[p].stress[0] == Approx(K0 * (total + pressure) - pressure).epsilon(rounding));
+    CHECK(water[p] == Approx(pressure).epsilon(to_rounding));
+    CHECK(all[p].stress[1] == Approx(total).epsilon(to_rounding));
+    CHECK(all[p].stress[0] == Approx(K0 * (total + pressure) - pressure).epsilon(to_rounding));
   }
   driven::Motion motion(scenes::load("level_ground", wet));
   motion.run_to(0.2);
@@ -208,7 +208,7 @@ TEST_CASE("clay in level ground has the void ratio of its place") {
   std::vector<double> e(phase->points());
   phase->fields().point_history("void_ratio", e);
   const std::vector<double> x = phase->fields().point_data().positions;
-  for (std::size_t p = 0; p < e.size(); ++p) CHECK(e[p] == Approx(1.2 - 0.4 * x[2 * p + 1]).epsilon(rounding));
+  for (std::size_t p = 0; p < e.size(); ++p) CHECK(e[p] == Approx(1.2 - 0.4 * x[2 * p + 1]).epsilon(to_rounding));
 }
 
 TEST_CASE("what cannot vary from place to place, or not beside something else, is refused by name") {

@@ -19,7 +19,7 @@ using stillpoint::test::TemporaryFolder;
 namespace {
 
 /// A column under its weight, E = ρ = 1, nu = 0, ρ g l/E = s0; max_motion 0.1.
-Scene column(double s0, int cells, const std::vector<std::string>& more) {
+Scene slow_column(double s0, int cells, const std::vector<std::string>& more) {
   std::vector<std::string> overrides = {"constants.s0=" + std::to_string(s0),
                                         "grid.cells=[" + std::to_string(cells) + "]"};
   overrides.insert(overrides.end(), more.begin(), more.end());
@@ -83,7 +83,7 @@ struct Settled {
   double u_error;       // of the topmost point, as a share
 };
 Settled settled(double s0, int cells, const std::vector<std::string>& more = {}) {
-  Simulation simulation(column(s0, cells, more), {.records = false});
+  Simulation simulation(slow_column(s0, cells, more), {.records = false});
   while (!simulation.done()) simulation.run_until(simulation.t() + 1);
   const LagrangianPhase& phase = simulation.parts().phase;
   const std::vector<double> X = phase.fields().point_data().initial_positions;

@@ -1,6 +1,5 @@
 // What yields because the motion goes too far, or along another way than a slow one, is told by a number, and what a
 // squeezed grid bears as well.
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -9,28 +8,27 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "says.hpp"
 #include "scenes.hpp"
 
 using namespace stillpoint;
+using stillpoint::test::says;
 
 namespace {
 
-bool says(const Summary& s, const std::string& part) {
-  return std::ranges::any_of(s.notes, [&](const std::string& note) { return note.find(part) != std::string::npos; });
-}
 const std::string overshot = "inertia carried the body on", squeezed = "in a single phase",
                   unbalanced = "plastic flow out of balance";
 
-Summary footing(const std::vector<std::string>& set) {
+Summary settled_footing(const std::vector<std::string>& set) {
   Summary s = run(scenes::load("footing", set));
   CAPTURE(set, s.reason);
   CHECK(s.status == RunStatus::equilibrium);
   return s;
 }
-double settlement(const Summary& s) { return scenes::probe(s, "block", "u.y"); }
+double settlement_of_footing(const Summary& s) { return scenes::probe(s, "block", "u.y"); }
 
 // Ground under a load that leans; the longest period is 0.0987 s.
-Summary ground(const std::vector<std::string>& set) {
+Summary leaning_ground(const std::vector<std::string>& set) {
   Summary s = run(scenes::load("hard/yielding_ground", set));
   CAPTURE(set, s.reason);
   CHECK(s.status == RunStatus::equilibrium);
@@ -48,20 +46,20 @@ double distance(const Summary& a, const Summary& b) {
   return std::hypot(u(a, "u.x") - u(b, "u.x"), u(a, "u.y") - u(b, "u.y")) / std::hypot(u(b, "u.x"), u(b, "u.y"));
 }
 
-const std::vector<std::string> ramp = {"body_force.value=['0', '-g*(y > 4)*min(t/5, 1)']", "stop.time=60"};
+const std::vector<std::string> slow_ramp = {"body_force.value=['0', '-g*(y > 4)*min(t/5, 1)']", "stop.time=60"};
 
 }  // namespace
 
 TEST_CASE("the share of plastic strain by overshoot grows with what a footing settles too much") {
-  const Summary slow = footing(ramp);
+  const Summary slow = settled_footing(slow_ramp);
   double last_share = -1, last_excess = -1;
   // Settlements 0, 3, 18, 29 and 58 % larger than the slow one.
   for (const char* damping :
        {"damping.c=critical", "damping.c=30", "damping={strategy='cundall'}", "damping.c=10", "damping.c=2"}) {
-    const Summary s = footing({damping});
+    const Summary s = settled_footing({damping});
     CAPTURE(damping);
     REQUIRE(s.plastic_overshoot);
-    const double excess = settlement(s) / settlement(slow) - 1;
+    const double excess = settlement_of_footing(s) / settlement_of_footing(slow) - 1;
     CHECK(excess > last_excess);
     CHECK(*s.plastic_overshoot > last_share);
     CHECK(*s.plastic_overshoot <= 1);
@@ -74,8 +72,8 @@ TEST_CASE("the share of plastic strain by overshoot grows with what a footing se
 }
 
 TEST_CASE("a slow ramp, critical damping and auto overshoot by less than one part in fifty, and say nothing") {
-  for (const auto& set : {ramp, {"damping.c=critical"}, {"damping={strategy='auto'}"}}) {
-    const Summary s = footing(set);
+  for (const auto& set : {slow_ramp, {"damping.c=critical"}, {"damping={strategy='auto'}"}}) {
+    const Summary s = settled_footing(set);
     REQUIRE(s.plastic_overshoot);
     CHECK(*s.plastic_overshoot < 0.02);
     CHECK_FALSE(says(s, overshot));
@@ -83,7 +81,7 @@ TEST_CASE("a slow ramp, critical damping and auto overshoot by less than one par
 }
 
 TEST_CASE("ground that a sudden load makes yield along another way without overshooting says so") {
-  const Summary slow = ground(within(29)), sudden = ground({});
+  const Summary slow = leaning_ground(within(29)), sudden = leaning_ground({});
   CHECK(distance(sudden, slow) > 0.02);
   CHECK(sudden.plastic_overshoot.value() < 0.005);
   CHECK_FALSE(says(sudden, overshot));
@@ -93,12 +91,12 @@ TEST_CASE("ground that a sudden load makes yield along another way without overs
 }
 
 TEST_CASE("plastic work out of balance falls as a ramp gets longer, and bounds the difference from a slow one") {
-  const Summary slow = ground(within(29));
+  const Summary slow = leaning_ground(within(29));
   CHECK(*slow.unbalanced_plastic_work < 2e-4);
   for (const char* strategy : {"viscous", "auto"}) {
     double last_share = 1, last_difference = 1;
     for (const double T : {0.1, 0.2, 0.5, 1.97}) {
-      const Summary s = ground(within(T, {std::string("damping={strategy='") + strategy + "'}"}));
+      const Summary s = leaning_ground(within(T, {std::string("damping={strategy='") + strategy + "'}"}));
       CAPTURE(strategy, T, distance(s, slow), *s.unbalanced_plastic_work);
       CHECK(*s.unbalanced_plastic_work < last_share);
       CHECK(distance(s, slow) < 2 * *s.unbalanced_plastic_work);
@@ -107,12 +105,12 @@ TEST_CASE("plastic work out of balance falls as a ramp gets longer, and bounds t
     }
     CHECK(last_difference < 0.002);  // after the ramp that the note asks for
   }
-  CHECK_FALSE(says(ground(within(1.97)), unbalanced));
+  CHECK_FALSE(says(leaning_ground(within(1.97)), unbalanced));
 }
 
 TEST_CASE("a static solver, which puts the loads on at once, says what of their work went into plastic flow") {
   for (const char* solver : {"newton", "cg", "lbfgs", "newton-cg"}) {
-    const Summary s = ground({std::string("solve.method=") + solver});
+    const Summary s = leaning_ground({std::string("solve.method=") + solver});
     CAPTURE(solver);
     CHECK(*s.unbalanced_plastic_work == Approx(0.0534).epsilon(0.02));  // half of W_p/W = 0.107
     CHECK_FALSE(s.plastic_overshoot);
@@ -207,7 +205,7 @@ TEST_CASE("the overshoot of a column that yields is told whatever rows are asked
 }
 
 TEST_CASE("what a yielding material bears because one phase squeezes the grid is said, with the strain") {
-  const Summary small = footing({"damping={strategy='auto'}"});
+  const Summary small = settled_footing({"damping={strategy='auto'}"});
   REQUIRE(small.single_phase_strain);
   CHECK(*small.single_phase_strain > 1e-3);
   CHECK(*small.single_phase_strain < 0.1);

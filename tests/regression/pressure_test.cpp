@@ -25,7 +25,7 @@ double cylinder_error(std::vector<std::string> overrides, int cells) {
 
 /// f with stress(f) = wanted, of an increasing function.
 template <class Stress>
-double stretch_under(double wanted, const Stress& stress) {
+double stretch_at(double wanted, const Stress& stress) {
   double low = 0.3, high = 3;
   for (int k = 0; k < 80; ++k) (stress((low + high) / 2) < wanted ? low : high) = (low + high) / 2;
   return (low + high) / 2;
@@ -33,7 +33,7 @@ double stretch_under(double wanted, const Stress& stress) {
 
 /// H of a stretch f in all directions that the law knows.
 template <class Law>
-Gradient<Law::state> stretched(double f) {
+Gradient<Law::state> equal_stretch(double f) {
   Gradient<Law::state> H{};
   H[0] = H[3] = f - 1;
   if constexpr (Law::state == StressState::axisymmetric) H[4] = f - 1;
@@ -42,11 +42,11 @@ Gradient<Law::state> stretched(double f) {
 
 template <class Law>
 double cauchy_at(double f) {
-  return Law(LameParameters::from(1, 0.3)).cauchy(stretched<Law>(f))[0];
+  return Law(LameParameters::from(1, 0.3)).cauchy(equal_stretch<Law>(f))[0];
 }
 template <class Law>
 double piola_at(double f) {
-  return Law(LameParameters::from(1, 0.3)).first_piola(stretched<Law>(f))[0];
+  return Law(LameParameters::from(1, 0.3)).first_piola(equal_stretch<Law>(f))[0];
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ TEST_CASE("a pressure that follows makes sigma = -p in a block at large strain; 
     for (const bool pressure : {true, false}) {
       if (pressure && state == "plane-stress") continue;  // the face's thickness is the undeformed one there
       CAPTURE(law, state, pressure);
-      const double f = pressure ? stretch_under(-p, cauchy_at<Law>) : stretch_under(p, piola_at<Law>);
+      const double f = pressure ? stretch_at(-p, cauchy_at<Law>) : stretch_at(p, piola_at<Law>);
       const Summary s = relaxed(law, state, pressure ? follows : dead);
       CHECK(s.status == RunStatus::equilibrium);
       // 1e-8: 100 residuals of the scene
@@ -117,7 +117,7 @@ TEST_CASE("a pressure goes with its faces from phase to phase") {
   // The pieces of surface move with the body, so that what is left is what the points lose by changing cells.
   const Summary s = run(scenes::load(
       "block", {"phase.max_motion=0.3", "grid.basis=quadratic", "body.points_per_cell=16", "stop.residual=1e-8"}));
-  const double f = stretch_under(-0.3, cauchy_at<NeoHookean<StressState::plane_strain>>);
+  const double f = stretch_at(-0.3, cauchy_at<NeoHookean<StressState::plane_strain>>);
   CAPTURE(s.reason, s.phases);
   CHECK(s.status == RunStatus::equilibrium);
   CHECK(s.phases > 2);

@@ -14,17 +14,13 @@
 
 using namespace stillpoint;
 using Catch::Matchers::Contains;
+using scenes::with;
 using stillpoint::test::says;
 using stillpoint::test::TemporaryFolder;
 
 namespace {
 
 const std::vector<std::string> small_slope = {"grid.cells=[40,22]", "output.every=0.5", "output.stages=[]"};
-
-std::vector<std::string> with(std::vector<std::string> overrides, const std::vector<std::string>& more) {
-  overrides.insert(overrides.end(), more.begin(), more.end());
-  return overrides;
-}
 
 struct Run {
   Summary summary;

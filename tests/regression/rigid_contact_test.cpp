@@ -16,11 +16,9 @@ using namespace stillpoint;
 namespace stillpoint::test {
 namespace {
 
-constexpr double stiffness = 1e6 * 0.7 / (1.3 * 0.4);  // λ + 2μ of the block
+constexpr double block_stiffness = 1e6 * 0.7 / (1.3 * 0.4);  // λ + 2μ of the block
 
-Summary run_ladder(const std::string& name, const std::vector<std::string>& set = {}) {
-  return run(scenes::load("ladder/" + name, set), {.threads = 1});  // tests run side by side
-}
+using scenes::run_ladder;
 
 /// Clay around a rigid bar of radius 1/2: half of it, above its plane of symmetry, under a pressure of 20 c that a
 /// plate keeps. Its hole is a polygon of many sides, each a fifth of a cell long.
@@ -46,7 +44,7 @@ std::string around_a_bar(const std::string& motion, const std::string& phase, do
 
 /// The force of the plate beside the exact one.
 double error_of_plate(const Summary& s) {
-  return std::abs(s.contacts.at("plate.force_y") / (-stiffness * 0.01 / 1.03 * 0.55) - 1);
+  return std::abs(s.contacts.at("plate.force_y") / (-block_stiffness * 0.01 / 1.03 * 0.55) - 1);
 }
 
 }  // namespace
@@ -148,13 +146,13 @@ probe = [{name = "block", kind = "body", fields = ["momentum.x", "momentum.y"]}]
 }
 
 TEST_CASE("Hertz's cylinder and sphere press with their force and pressure, and a punch and a cone with Love's") {
-  struct Case {
+  struct Variant {
     const char* scene;
     double force, tolerance;
   };
   const double pi = std::acos(-1.0);
-  for (const Case& one : {Case{"hertz_cylinder", -pi * 1e-3 / 8, 0.01}, Case{"hertz_sphere", -4e-4 / 3, 0.02},
-                          Case{"rigid_punch", -4e-4, 0.02}, Case{"rigid_cone", -4e-4 * pi, 0.03}}) {
+  for (const Variant& one : {Variant{"hertz_cylinder", -pi * 1e-3 / 8, 0.01}, Variant{"hertz_sphere", -4e-4 / 3, 0.02},
+                             Variant{"rigid_punch", -4e-4, 0.02}, Variant{"rigid_cone", -4e-4 * pi, 0.03}}) {
     CAPTURE(one.scene);
     const Summary s = run_ladder(one.scene);
     REQUIRE(s.status == RunStatus::equilibrium);

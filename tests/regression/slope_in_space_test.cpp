@@ -12,7 +12,7 @@ using namespace stillpoint;
 namespace {
 
 /// On cells of 0.3 m, 20 × 10 of them filled and so many from the middle to the side wall.
-Summary slope(int across, const std::string& friction) {
+Summary slope_across(int across, const std::string& friction) {
   const std::string width = std::to_string(0.3 * across);
   const Summary s = run(
       scenes::load("slope_in_space", {"grid.cells=[20, 12, " + std::to_string(across) + "]", "grid.max=[6, 3.6, 'W']",
@@ -28,7 +28,7 @@ Summary slope(int across, const std::string& friction) {
 TEST_CASE("sand between smooth side walls forms the slope of its plane, between rough ones a steeper one") {
   const Summary plane =
       run(scenes::load("slope", {"constants.h=0.3", "grid.cells=[20, 12]", "grid.max=[6, 3.6]"}), {.threads = 1});
-  const Summary smooth = slope(1, "0"), rough = slope(2, "0.4");
+  const Summary smooth = slope_across(1, "0"), rough = slope_across(2, "0.4");
   const double angle = plane.slope_angle.value(), in_the_middle = scenes::probe(smooth, "middle", "slope_angle");
   CAPTURE(angle);
   CHECK(in_the_middle == Approx(angle).margin(2));  // runs that differ by rounding differ by 0.4° each, on this grid

@@ -12,14 +12,17 @@
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
+using scenes::with;
 using stillpoint::test::TemporaryFolder;
 
 namespace {
 
+namespace sand {
 constexpr double rho = 1800, g = 9.81, H = 3, phi = 35, K0 = 0.43;
 const double hydrostatic = rho * g * H * H / 2;
 // Rankine's active pressure, ψ = 0 and smooth wall: (1 − sin φ)/(1 + sin φ) = 0.2710
 const double K_a = (1 - std::sin(phi * std::numbers::pi / 180)) / (1 + std::sin(phi * std::numbers::pi / 180));
+}  // namespace sand
 
 /// The slope with 3 200 points whose wall moves out by 0.5 % of its height within T, beginning and ending at rest, on a
 /// smooth base: a rough one holds a share of the thrust on the wall's lowest cells (0.234 instead of 0.275 here).
@@ -27,7 +30,7 @@ std::vector<std::string> yielding_wall(double T) {
   const std::string s = "min(t/" + std::to_string(T) + ",1)";
   return {"grid.cells=[40,22]",
           "material.soil.cone=plane-strain",
-          "initial.geostatic.K0=" + std::to_string(K0),
+          "initial.geostatic.K0=" + std::to_string(sand::K0),
           "support=[{face='bottom', kind='roller'}]",
           "wall[1].motion=0.015*(" + s + " - sin(2*pi*" + s + ")/(2*pi))",
           "mass.scaling=1",
@@ -47,13 +50,8 @@ Thrust thrust_on_wall(const std::vector<std::string>& overrides, int threads = 1
   thrust.summary = run(scenes::load("slope", overrides), {.out = folder.path(), .threads = threads});
   const auto history = stillpoint::test::columns_of(folder.path() / "history.csv");
   thrust.t = history.at("t");
-  for (const double normal : history.at("wall.normal")) thrust.share.push_back(normal / hydrostatic);
+  for (const double normal : history.at("wall.normal")) thrust.share.push_back(normal / sand::hydrostatic);
   return thrust;
-}
-
-std::vector<std::string> with(std::vector<std::string> overrides, const std::vector<std::string>& more) {
-  overrides.insert(overrides.end(), more.begin(), more.end());
-  return overrides;
 }
 
 }  // namespace
@@ -66,7 +64,7 @@ TEST_CASE("a wall that yields by 0.5 % of its height brings the thrust from K0 t
     REQUIRE(thrust.summary.status == RunStatus::end_time);
     CHECK(thrust.summary.phases >= (std::string(phases).ends_with("0.01") ? 10 : 2));
     // At T/20 the wall has moved by less than 1e-3 of its way.
-    CHECK(thrust.share.at(1) == Approx(K0).epsilon(0.01));
+    CHECK(thrust.share.at(1) == Approx(sand::K0).epsilon(0.01));
     // The plateau while the wall still moves. Measured 0.275 to 0.276, 1.6 % above K_a, its rows 1 % apart; 0.277 to
     // 0.280 on twice as fine a grid, whatever the transfer; 0.269 if the wall moves by 1 % of its height in 8 s.
     double mean = 0;
@@ -75,9 +73,9 @@ TEST_CASE("a wall that yields by 0.5 % of its height brings the thrust from K0 t
       if (thrust.t[k] < 0.7 * T || thrust.t[k] > 0.95 * T) continue;
       mean += thrust.share[k];
       ++rows;
-      CHECK(thrust.share[k] == Approx(K_a).epsilon(0.05));
+      CHECK(thrust.share[k] == Approx(sand::K_a).epsilon(0.05));
     }
-    CHECK(mean / rows == Approx(K_a).epsilon(0.03));
+    CHECK(mean / rows == Approx(sand::K_a).epsilon(0.03));
     // Before, it falls without coming back.
     for (std::size_t k = 2; thrust.t[k] < 0.6 * T; ++k) CHECK(thrust.share[k] < thrust.share[k - 1] + 0.002);
   }
@@ -116,5 +114,6 @@ TEST_CASE("the slope of a coarse grid stands at the angle of infinite-slope theo
   CHECK(*s.added_mass < 0.2);
   REQUIRE(s.slope_angle);
   CHECK(*s.slope_angle == Approx(33).margin(2.5));  // 33.9° here and 33.7° with cells twice as wide, 0.15 m of 3 m
-  CHECK(s.kinetic_energy < 1e-3 * rho * g * H);     // at rest: less than a millimetre's fall of a square metre
+  CHECK(s.kinetic_energy <
+        1e-3 * sand::rho * sand::g * sand::H);  // at rest: less than a millimetre's fall of a square metre
 }

@@ -29,7 +29,7 @@ struct Errors {
 
 /// Settlement of the top of the layer at (x, z) by the double series of problems/square_load.toml, of as many terms
 /// along each axis as leave 1e-5 of it.
-double settlement(double x, double z) {
+double settlement_of_layer(double x, double z) {
   constexpr double b = 1, L = 4, H = 4, p = 100e3, E = 20e6, nu = 0.3, pi = std::numbers::pi;
   constexpr int terms = 400;
   const auto of_load = [&](int m) { return m == 0 ? b / L : 2 * std::sin(m * pi * b / L) / (m * pi); };
@@ -99,7 +99,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a square load on a block on rock settles as its double series says, within 1 % and 0.2 %, with order 2") {
-  const double centre = settlement(0, 0), corner = settlement(1, 1);
+  const double centre = settlement_of_layer(0, 0), corner = settlement_of_layer(1, 1);
   CHECK(centre == Approx(8.17424e-3).epsilon(1e-4));
   const auto of = [&](int n) { return run(scenes::load("square_load", {cells(n, n, n)})); };
   const Summary coarse = of(8), fine = of(16);

@@ -19,8 +19,8 @@ using namespace stillpoint;
 
 namespace {
 
-constexpr double side = 1, omega = 1, turn = 6.283185307179586;
-constexpr double energy_at_start = omega * omega * side * side / 12;  // ½ Ω² ∫ρ r² dA, ρ = 1
+constexpr double square_side = 1, spin_rate = 1, whole_turn = 6.283185307179586;
+constexpr double energy_at_start = spin_rate * spin_rate * square_side * square_side / 12;  // ½ Ω² ∫ρ r² dA, ρ = 1
 
 /// The square, or a quarter of it.
 Scene square(const std::string& basis, std::vector<std::string> overrides) {
@@ -30,18 +30,18 @@ Scene square(const std::string& basis, std::vector<std::string> overrides) {
 
 /// ½ Σ m_p |v_p|² and the sums of stresses σ_xx + σ_yy, which a rotation of the axes leaves as they are: their mean
 /// over the body, and over the four points about its middle.
-struct State {
+struct SpinState {
   double energy = 0, trace = 0, trace_in_the_middle = 0;
 };
 
-State state_of(const LagrangianPhase& phase, double t, ConstVec u, ConstVec v) {
+SpinState state_of(const LagrangianPhase& phase, double t, ConstVec u, ConstVec v) {
   const std::size_t n = phase.points();
   std::vector<double> of_velocity(2 * n), place(2 * n),
       stress(n * static_cast<std::size_t>(phase.info().stress_components));
   phase.fields().point_field(PointQuantity::velocity, t, v, of_velocity);
   phase.fields().point_field(PointQuantity::stress, t, u, stress);
   const PointData data = phase.fields().point_data();
-  State state;
+  SpinState state;
   std::vector<std::array<double, 2>> by_distance;
   for (std::size_t p = 0; p < n; ++p) {
     const double* s = stress.data() + p * static_cast<std::size_t>(phase.info().stress_components);
@@ -68,8 +68,8 @@ Turn spin(const std::string& basis, const std::string& transfer) {
   constexpr int looks = 300;
   Turn result;
   for (int k = 1; k <= looks; ++k) {
-    simulation.run_until(turn * k / looks);
-    const State now = state_of(simulation.parts().phase, simulation.t(), simulation.u(), simulation.v());
+    simulation.run_until(whole_turn * k / looks);
+    const SpinState now = state_of(simulation.parts().phase, simulation.t(), simulation.u(), simulation.v());
     result.kept = now.energy / energy_at_start;
     result.most = std::max(result.most, result.kept);
     result.trace += now.trace / looks;
@@ -97,7 +97,7 @@ double static_trace_in_the_middle() {
 
 TEST_CASE("a square that spins a turn keeps its energy, never gains any, and bears its centrifugal stress") {
   // ∫σ_ij dA = ∫ρ Ω² x_i x_j dA, the virial theorem.
-  constexpr double mean_trace = omega * omega * side * side / 6;
+  constexpr double mean_trace = spin_rate * spin_rate * square_side * square_side / 6;
   const double in_the_middle = static_trace_in_the_middle();
   CHECK(in_the_middle > 1.5 * mean_trace);  // it is largest there
   for (const std::string basis : {"linear", "quadratic", "cubic"}) {
@@ -118,13 +118,13 @@ TEST_CASE("a square that spins a turn keeps its energy, never gains any, and bea
 namespace {
 
 /// To a share of a turn, or of several.
-void spin_on(Simulation& simulation, double turns) { simulation.run_until(turn * turns); }
+void spin_on(Simulation& simulation, double turns) { simulation.run_until(whole_turn * turns); }
 
 }  // namespace
 
 TEST_CASE("a cube that spins about an axis askew in space keeps its motion and bears its centrifugal stress") {
-  constexpr double a = 1, mean_trace = omega * omega * a * a / 6;  // ∫σ_ii dV = ∫ρ (Ω × x)² dV
-  constexpr double energy = a * a * a * a * a / 12;                // ½ Ω² m a²/6
+  constexpr double a = 1, mean_trace = spin_rate * spin_rate * a * a / 6;  // ∫σ_ii dV = ∫ρ (Ω × x)² dV
+  constexpr double energy = a * a * a * a * a / 12;                        // ½ Ω² m a²/6
   struct Case {
     std::string law, cells;
     double turns;

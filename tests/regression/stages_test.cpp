@@ -13,18 +13,19 @@
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
+using scenes::with;
 
 namespace {
 
 /// How far the top of lift k of n has come down since it was placed, (n − k) k + k − ½ times ρ g h²/M.
-double settlement(int k, int n) {
+double settlement_of_lift(int k, int n) {
   constexpr double rho_g_over_M = 1.8e-3, H = 6;
   const double h = H / n;
   return -rho_g_over_M * h * h * ((n - k) * k + k - 0.5);
 }
 
 /// Rests in time, as the scene with a static solver does: each stage waits for equilibrium.
-const std::vector<std::string> in_time = {"solve.method=relaxation", "stop.residual=1e-7"};
+const std::vector<std::string> waiting = {"solve.method=relaxation", "stop.residual=1e-7"};
 std::string lifts_that_wait() {
   std::string stages = "stage=[{at=0, equilibrium=true}";
   for (int k = 2; k <= 6; ++k)
@@ -32,14 +33,9 @@ std::string lifts_that_wait() {
   return stages + "]";
 }
 
-std::vector<std::string> with(std::vector<std::string> all, const std::vector<std::string>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
-
 Summary built(const std::vector<std::string>& overrides) {
   std::vector<std::string> all = overrides;
-  if (std::ranges::count(all, in_time[0]) > 0) all.push_back(lifts_that_wait());
+  if (std::ranges::count(all, waiting[0]) > 0) all.push_back(lifts_that_wait());
   return run(scenes::load("ladder/lifts", all));
 }
 
@@ -59,15 +55,15 @@ TEST_CASE("an embankment in six lifts settles as the closed solution says, by a 
   for (const auto& way : {std::vector<std::string>{},
                           {"solve.method=cg"},
                           {"solve.method=lbfgs"},
-                          with(in_time, {"damping.strategy=auto"}),
-                          with(in_time, {"damping.strategy=viscous"}),
-                          with(in_time, {"damping.strategy=cundall"})}) {
+                          with(waiting, {"damping.strategy=auto"}),
+                          with(waiting, {"damping.strategy=viscous"}),
+                          with(waiting, {"damping.strategy=cundall"})}) {
     CAPTURE(way);
     const Summary s = built(way);
     CHECK(s.status == RunStatus::equilibrium);
     CHECK(s.stages.size() == 5);
     for (int k = 1; k <= 6; ++k)
-      CHECK(scenes::probe(s, fmt::format("lift {}", k), "u.y") == Approx(settlement(k, 6)).epsilon(1e-4));
+      CHECK(scenes::probe(s, fmt::format("lift {}", k), "u.y") == Approx(settlement_of_lift(k, 6)).epsilon(1e-4));
   }
 }
 
@@ -78,11 +74,11 @@ TEST_CASE("lifts of a law that keeps its stress settle by as much, to the square
     const std::size_t comma = law.find(',');
     std::vector<std::string> set = {"material.fill." + law.substr(0, comma)};
     if (comma != std::string::npos) set.push_back("material.fill." + law.substr(comma + 1));
-    for (const auto& way : {std::vector<std::string>{"stop.residual=1e-7"}, in_time}) {
+    for (const auto& way : {std::vector<std::string>{"stop.residual=1e-7"}, waiting}) {
       const Summary s = built(with(set, way));
       CHECK(s.status == RunStatus::equilibrium);
       for (int k = 1; k <= 6; ++k)
-        CHECK(scenes::probe(s, fmt::format("lift {}", k), "u.y") == Approx(settlement(k, 6)).epsilon(0.02));
+        CHECK(scenes::probe(s, fmt::format("lift {}", k), "u.y") == Approx(settlement_of_lift(k, 6)).epsilon(0.02));
     }
   }
 }
@@ -95,7 +91,7 @@ TEST_CASE("a body that is dug away leaves what lies below as if it had never bee
         run(cut("{at=1}", {"body=[{name='below', max=['h', '3*h'], material='fill', state='plane-strain'}]", set}));
     const double left = scenes::probe(never, "below", "u.y");
     CHECK(left < 0);
-    for (const auto& way : {std::vector<std::string>{}, in_time}) {
+    for (const auto& way : {std::vector<std::string>{}, waiting}) {
       const Summary dug = run(cut("{at=1, remove=['above']}", with({set}, way)));
       CHECK(dug.status == RunStatus::equilibrium);
       CHECK(dug.stages.at(0).status == RunStatus::equilibrium);
@@ -115,7 +111,7 @@ TEST_CASE("what a stage puts out of balance comes on over its ramp: a slow one n
     };
     const Scene scene = scenes::load(
         "ladder/lifts",
-        with(in_time,
+        with(waiting,
              {"body=[{name='below', max=['h', '3*h'], material='fill', state='plane-strain'}, {name='above', "
               "min=[0, '3*h'], max=['h', '6*h'], material='fill'}]",
               "stage=[{at=1, add=['above']" + ramp + "}]", "damping.strategy=viscous", "damping.c=10",
@@ -190,7 +186,7 @@ TEST_CASE("a support that is released hands its load on, and one that begins to 
   const std::vector<std::string> column = {
       "body=[{name='below', max=['h', '6*h'], material='fill', state='plane-strain'}]", prop,
       "probe=[{name='top', at=['h/2', '6*h'], fields=['u.y']}]"};
-  for (const auto& way : {std::vector<std::string>{}, in_time}) {
+  for (const auto& way : {std::vector<std::string>{}, waiting}) {
     CAPTURE(way);
     const Summary released =
         run(scenes::load("ladder/lifts", with(with(column, {"stage=[{at=1, release=['prop']}]"}), way)));
@@ -254,7 +250,7 @@ TEST_CASE("bodies placed with K0 keep the stress of the weight above them, and o
       "probe=[{name='above', at=['h/2', '4.5*h'], fields=['stress.xx', 'stress.yy', 'stress.zz']}, {name='middle', "
       "at=['h/2', '3.5*h'], fields=['stress.xx', 'stress.yy', 'stress.zz']}, {name='top', at=['h/2', '5*h'], "
       "fields=['u.y']}]"};
-  for (const auto& way : {std::vector<std::string>{"stop.residual=1e-9"}, in_time}) {
+  for (const auto& way : {std::vector<std::string>{"stop.residual=1e-9"}, waiting}) {
     const Summary s = run(scenes::load("ladder/lifts", with(placed, way)));
     CHECK(s.status == RunStatus::equilibrium);
     const double of_above = -25e3 / 2, of_middle = -25e3 - 18e3 / 2;  // σ_yy [Pa]
@@ -273,13 +269,13 @@ TEST_CASE("bodies placed with K0 keep the stress of the weight above them, and o
 
 TEST_CASE("a stage that waits for equilibrium ends when it has come, and later stages begin then") {
   const Summary s = run(cut("{at=0, equilibrium=true}, {at=0.01, remove=['above']}",
-                            with(in_time, {"damping.strategy=viscous", "stop.time=100"})));
+                            with(waiting, {"damping.strategy=viscous", "stop.time=100"})));
   CHECK(s.status == RunStatus::equilibrium);
   REQUIRE(s.stages.size() == 1);
   CHECK(s.stages[0].status == RunStatus::equilibrium);
   CHECK(s.stages[0].end > 0.01);
   CHECK(s.stages[0].residual <= 1e-7);
-  const Summary hasty = run(cut("{at=0.01, remove=['above']}", with(in_time, {"stop.time=100"})));
+  const Summary hasty = run(cut("{at=0.01, remove=['above']}", with(waiting, {"stop.time=100"})));
   CHECK(hasty.stages.at(0).status == RunStatus::end_time);
   CHECK(hasty.stages.at(0).end == 0.01);
 }
@@ -287,7 +283,7 @@ TEST_CASE("a stage that waits for equilibrium ends when it has come, and later s
 TEST_CASE("a run of stages has the same bits for any number of threads") {
   const auto figures = [](int threads) {
     const Summary s =
-        run(scenes::load("ladder/lifts", with(in_time, {"material.fill.law=drucker-prager", "material.fill.c=1e5",
+        run(scenes::load("ladder/lifts", with(waiting, {"material.fill.law=drucker-prager", "material.fill.c=1e5",
                                                         "damping.strategy=cundall"})),
             {.threads = threads});
     std::string all = fmt::format("{} {:a}", s.steps, s.residual);

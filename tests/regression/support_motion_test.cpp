@@ -15,7 +15,7 @@ using namespace stillpoint;
 namespace {
 
 // The bar without its force, with x = 0 moved and u = motion everywhere as the exact solution.
-Summary pulled(const std::string& motion, const std::vector<std::string>& more) {
+Summary pulled_bar(const std::string& motion, const std::vector<std::string>& more) {
   std::vector<std::string> overrides{"support=[{at=0.0, u='" + motion + "'}]",
                                      "force=[]",
                                      "stop.residual=0",
@@ -43,7 +43,7 @@ std::vector<std::string> held_all_round(const std::string& u_x, const std::strin
           "damping={}",
           "body.placement=gauss"};
 }
-double error_of(std::vector<std::string> overrides, const std::string& more = "grid.basis=linear") {
+double error_of_block(std::vector<std::string> overrides, const std::string& more = "grid.basis=linear") {
   overrides.push_back(more);
   return run(scenes::load("block", overrides)).error->u_rel_l2;
 }
@@ -52,16 +52,16 @@ double error_of(std::vector<std::string> overrides, const std::string& more = "g
 
 TEST_CASE("a body whose border is displaced linearly in the position strains uniformly, to rounding") {
   const auto linear = held_all_round("1e-3*(2*x - y)", "1e-3*(0.5 + x + 3*y)");
-  CHECK(error_of(linear) < 1e-12);
-  CHECK(error_of(linear, "body.state=plane-stress") < 1e-12);
+  CHECK(error_of_block(linear) < 1e-12);
+  CHECK(error_of_block(linear, "body.state=plane-stress") < 1e-12);
 }
 
 TEST_CASE("springs hold a border to displacements that vary, as closely as they are stiff, on any basis") {
   for (const std::string basis : {"linear", "quadratic", "cubic"}) {
     CAPTURE(basis);
     const auto held = [&](const std::string& stiffness) {
-      return error_of(held_all_round("1e-3*(2*x - y)", "1e-3*(0.5 + x + 3*y)", ", stiffness=" + stiffness),
-                      "grid.basis=" + basis);
+      return error_of_block(held_all_round("1e-3*(2*x - y)", "1e-3*(0.5 + x + 3*y)", ", stiffness=" + stiffness),
+                            "grid.basis=" + basis);
     };
     const double soft = held("1e4"), stiff = held("1e6");
     CHECK(soft < 1e-3);  // E/L over the stiffness is 1e-4
@@ -79,20 +79,20 @@ TEST_CASE("a manufactured solution with displacements prescribed all round conve
     auto overrides = harmonic;
     overrides.insert(overrides.end(), {fmt::format("grid.cells=[{0}, {0}]", cells), "body.placement=gauss",
                                        fmt::format("body.points_per_cell={}", points)});
-    return error_of(overrides, "grid.basis=" + basis);
+    return error_of_block(overrides, "grid.basis=" + basis);
   };
   CHECK(std::log2(error(8) / error(16)) == Approx(order).margin(margin));
 }
 
 TEST_CASE("a displacement that is linear along the faces all round is met to rounding by splines") {
   const std::string basis = GENERATE("quadratic", "cubic");
-  CHECK(error_of(held_all_round("1e-3*(2*x - y)", "1e-3*(0.5 + x + 3*y)"), "grid.basis=" + basis) < 1e-9);
+  CHECK(error_of_block(held_all_round("1e-3*(2*x - y)", "1e-3*(0.5 + x + 3*y)"), "grid.basis=" + basis) < 1e-9);
 }
 
 TEST_CASE("a displacement that varies along a face follows t, too") {
   auto overrides = held_all_round("1e-3*x*t", "1e-3*y*min(t, 0.5)");
   overrides.insert(overrides.end(), {"stop.time=2"});
-  CHECK(error_of(overrides) < 1e-12);
+  CHECK(error_of_block(overrides) < 1e-12);
 }
 
 TEST_CASE("a support at a position takes its displacement from there") {
@@ -144,8 +144,8 @@ TEST_CASE("a displacement that varies along a face is refused where unknowns are
 TEST_CASE("a support that moves at constant speed from the start carries the body along without stress") {
   // u = 0.3 t is an exact solution: no acceleration, no strain. Initial velocity 0.3 everywhere.
   for (const char* mass : {"consistent", "lumped"}) {
-    const Summary s =
-        pulled("0.3*t", {"damping.strategy=none", "initial.v=0.3", "stop.time=10", std::string("mass.kind=") + mass});
+    const Summary s = pulled_bar(
+        "0.3*t", {"damping.strategy=none", "initial.v=0.3", "stop.time=10", std::string("mass.kind=") + mass});
     CAPTURE(mass);
     CHECK(s.error->u_rel_max < 1e-9);
     CHECK(std::abs(scenes::probe(s, "p12", "stress")) < 1e-9);
@@ -154,8 +154,8 @@ TEST_CASE("a support that moves at constant speed from the start carries the bod
 
 TEST_CASE("a support that accelerates with the whole body under its inertia force leaves it unstrained") {
   // u = t²/2 with b = 1 [m/s²]: exact only if the support's inertia M_fs a_s is in the equation.
-  const Summary s = pulled("0.5*t^2", {"damping.strategy=none", "body_force.value=1", "stop.time=10",
-                                       "integrator.method=erk:fehlberg-13-7-8", "integrator.rtol=1e-10"});
+  const Summary s = pulled_bar("0.5*t^2", {"damping.strategy=none", "body_force.value=1", "stop.time=10",
+                                           "integrator.method=erk:fehlberg-13-7-8", "integrator.rtol=1e-10"});
   CHECK(s.error->u_rel_max < 1e-7);  // limited by the numerical second derivative of the motion
 }
 

@@ -8,7 +8,6 @@
 
 #include "says.hpp"
 #include "scenes.hpp"
-#include "temporary_folder.hpp"
 
 using namespace stillpoint;
 using Catch::Matchers::Contains;
@@ -16,12 +15,10 @@ using Catch::Matchers::Contains;
 namespace stillpoint::test {
 namespace {
 
-Summary run_text(const std::string& text, const std::vector<std::string>& set = {}) {
-  const TemporaryFolder folder;
-  return run(load_scene(folder.write("scene.toml", text), set), {.out = folder.path(), .threads = 1});
-}
-const std::string rubber = "[material.m]\nlaw = \"neo-hookean\"\nE = 1e6\nnu = 0.3\nrho = 1000\n";
-const std::string ends = "[damping]\nstrategy = \"auto\"\n[stop]\nsteps = 200000\n";
+using scenes::run_text;
+
+const std::string pad_rubber = "[material.m]\nlaw = \"neo-hookean\"\nE = 1e6\nnu = 0.3\nrho = 1000\n";
+const std::string to_rest = "[damping]\nstrategy = \"auto\"\n[stop]\nsteps = 200000\n";
 
 // A pad of 16 × 8 cells, into which a smooth disc is pushed from where it touches the top.
 const std::string pad = R"toml(
@@ -41,7 +38,7 @@ material = "m"
 placement = "gauss"
 [[support]]
 face = "bottom"
-)toml" + rubber;
+)toml" + pad_rubber;
 const std::string disc =
     "[[rigid]]\nname = \"pin\"\ndisc = [\"at\", \"2+R\"]\nradius = \"R\"\nmotion = [\"0\", \"-push*min(t,1)\"]\n";
 
@@ -56,20 +53,20 @@ double depth_told(const Summary& s, const std::string& words) {
 
 TEST_CASE(
     "a disc that has jumped past the border of a body is at no equilibrium in its middle, in the plane or in space") {
-  const Summary pressed = run_text(pad + disc + ends, {"constants.push=0.4"});
+  const Summary pressed = run_text(pad + disc + to_rest, {"constants.push=0.4"});
   CHECK(pressed.status == RunStatus::equilibrium);
   CHECK(pressed.contacts.at("pin.force_y") < -2e5);
   CHECK_FALSE(says(pressed, "past the border"));
   for (const char* law : {"neo-hookean", "linear-elastic"}) {
     CAPTURE(law);
-    const Summary past = run_text(pad + disc + ends, {"constants.push=1", std::string("material.m.law=") + law});
+    const Summary past = run_text(pad + disc + to_rest, {"constants.push=1", std::string("material.m.law=") + law});
     CHECK(past.status != RunStatus::equilibrium);
     CHECK_THAT(past.reason, Contains("'pin' has gone past the border of 'pad'"));
   }
 }
 
 TEST_CASE("a pin that goes in between two places that feel contact is found by the material that lies in it") {
-  const Summary in = run_text(pad + disc + ends, {"constants.R=0.1", "constants.push=0.5"});
+  const Summary in = run_text(pad + disc + to_rest, {"constants.R=0.1", "constants.push=0.5"});
   CAPTURE(in.reason);
   CHECK(in.status != RunStatus::equilibrium);
   CHECK_THAT(in.reason, Contains("'pin'") && Contains("'pad'"));
@@ -102,7 +99,7 @@ at = [2, {3}]
 fields = ["u.y"]
 )toml",
                                              top, top + 2, up, top + 1e-9) +
-                                 rubber + ends);
+                                 pad_rubber + to_rest);
       REQUIRE(s.status == RunStatus::equilibrium);
       const double cells = (up - scenes::probe(s, "corner", "u.y")) / 0.25;
       CAPTURE(cells, s.notes);
@@ -119,7 +116,7 @@ TEST_CASE("free rigid bodies that stand in each other are at no equilibrium") {
       "[[rigid]]\nname = \"low\"\nmin = [1.5, 2]\nmax = [2.5, 2.3]\nfree = true\nmass = 100\n"
       "[[rigid]]\nname = \"up\"\nmin = [1.5, 2.3]\nmax = [2.5, 2.6]\nfree = true\nmass = 200\n"
       "[body_force]\nvalue = [0, -10]\n";
-  const Summary stack = run_text(pad + boxes + ends);
+  const Summary stack = run_text(pad + boxes + to_rest);
   CHECK(stack.status != RunStatus::equilibrium);
   CHECK_THAT(stack.reason, Contains("'up' and 'low' are in each other"));
   // With a body between them they are not.
@@ -127,7 +124,7 @@ TEST_CASE("free rigid bodies that stand in each other are at no equilibrium") {
       "[[rigid]]\nname = \"low\"\nmin = [0.5, 2]\nmax = [1.5, 2.3]\nfree = true\nmass = 100\n"
       "[[rigid]]\nname = \"up\"\nmin = [2.5, 2]\nmax = [3.5, 2.3]\nfree = true\nmass = 200\n"
       "[body_force]\nvalue = [0, -10]\n";
-  CHECK(run_text(pad + apart + ends).status == RunStatus::equilibrium);
+  CHECK(run_text(pad + apart + to_rest).status == RunStatus::equilibrium);
 }
 
 TEST_CASE(
@@ -167,7 +164,7 @@ face = "bottom"
 [body_force]
 value = [-1, -0.5]
 )toml";
-    const Summary inside = run_text(scene + rubber + ends);
+    const Summary inside = run_text(scene + pad_rubber + to_rest);
     CHECK(inside.status != RunStatus::equilibrium);
     CHECK_THAT(inside.reason, Contains("'base' and 'slab' have gone through each other"));
   }
@@ -199,7 +196,7 @@ friction = 0.5
 face = "left"
 [body_force]
 value = [0, -0.2]
-)toml" + rubber + ends);
+)toml" + pad_rubber + to_rest);
   CHECK(hangs.status != RunStatus::equilibrium);
   CHECK_THAT(hangs.reason, Contains("have turned by"));
 }
@@ -231,9 +228,9 @@ half_plane = [[1.5, 0], [-1, 0]]
 [body_force]
 value = [4, -10]
 )toml";
-  CHECK(says(run_text(tower + ends), "takes a rotation for a strain"));
-  CHECK_FALSE(says(run_text(tower + ends, {"material.m.law=neo-hookean"}), "takes a rotation for a strain"));
-  CHECK_FALSE(says(run_text(tower + ends, {"body_force.value=[0.1, -10]"}), "takes a rotation for a strain"));
+  CHECK(says(run_text(tower + to_rest), "takes a rotation for a strain"));
+  CHECK_FALSE(says(run_text(tower + to_rest, {"material.m.law=neo-hookean"}), "takes a rotation for a strain"));
+  CHECK_FALSE(says(run_text(tower + to_rest, {"body_force.value=[0.1, -10]"}), "takes a rotation for a strain"));
 }
 
 }  // namespace stillpoint::test

@@ -15,11 +15,10 @@ using Catch::Matchers::Contains;
 namespace stillpoint::test {
 namespace {
 
-Summary run_text(const std::string& text, const std::vector<std::string>& set = {}) {
-  return run(load_scene("scene.toml", text, set), {.threads = 1});
-}
-const std::string rubber = "[material.m]\nlaw = 'neo-hookean'\nE = 1e6\nnu = 0.3\nrho = 1000\n";
-const std::string stop = "[stop]\nsteps = 20000\n", ends = "[damping]\nstrategy = 'auto'\n" + stop;
+using scenes::run_text;
+
+const std::string block_rubber = "[material.m]\nlaw = 'neo-hookean'\nE = 1e6\nnu = 0.3\nrho = 1000\n";
+const std::string stop = "[stop]\nsteps = 20000\n", by_auto = "[damping]\nstrategy = 'auto'\n" + stop;
 
 /// A rigid box of 1 by 0.5 on an incline of 0.2, whose lower corner is at x_0.
 std::string box_on_incline(double x_0, const std::string& more) {
@@ -34,17 +33,17 @@ std::string box_on_incline(double x_0, const std::string& more) {
              "[[rigid]]\nname = 'box'\npolygon = [{}, {}, {}, {}]\nfree = true\nmass = 500\n{}\n"
              "[body_force]\nvalue = [0, -10]\n",
              low + 4 * s / c, low, at(a, 0), at(a + 1, 0), at(a + 1, 0.5), at(a, 0.5), more) +
-         rubber + ends;
+         block_rubber + by_auto;
 }
 
 /// A block between two plates that stand at its sides.
-std::string between_plates(const std::string& more, const std::string& way = ends) {
+std::string between_plates(const std::string& more, const std::string& way = by_auto) {
   return "dim = 2\n[grid]\nmin = [0, 0]\nmax = [4, 4]\ncells = [16, 16]\n"
          "[[body]]\nname = 'block'\nmin = [1, 1]\nmax = [2, 2]\nmaterial = 'm'\nplacement = 'gauss'\n"
          "[[rigid]]\nname = 'left'\nhalf_plane = [[1, 0], [1, 0]]\n"
          "[[rigid]]\nname = 'right'\nhalf_plane = [[2, 0], [-1, 0]]\n"
          "[body_force]\nvalue = [0, -10]\n" +
-         more + rubber + way;
+         more + block_rubber + way;
 }
 
 /// A block above a base.
@@ -54,7 +53,7 @@ const std::string above_base =
     "[[body]]\nname = 'block'\nmin = [1, 1.5]\nmax = [2, 2.25]\nmaterial = 'm'\nplacement = 'gauss'\n"
     "[[contact]]\nbodies = ['block', 'base']\nfriction = 0.3\n[[support]]\nface = 'bottom'\n"
     "[body_force]\nvalue = [0, 'g']\n" +
-    rubber + ends;
+    block_rubber + by_auto;
 
 void check_moves_away(const Summary& s, const std::string& who, const std::string& along) {
   CAPTURE(s.reason);
@@ -71,7 +70,7 @@ std::string dragged_box(const std::string& more) {
          "placement = 'gauss'\n[material.m]\nlaw = 'linear-elastic'\nE = 1e6\nnu = 0.3\nrho = 1000\n"
          "[[support]]\nface = 'bottom'\n[[rigid]]\nname = 'box'\nmin = [1.5, 1.0]\nmax = [2.5, 1.8]\n"
          "motion = ['0.1', '-0.05']\n" +
-         more + "\n" + ends;
+         more + "\n" + by_auto;
 }
 
 }  // namespace
@@ -135,7 +134,7 @@ TEST_CASE("a free rigid body with nothing on its way is told to move away, and i
       "[[body]]\nname = 'pad'\nmax = [4, 1]\nmaterial = 'm'\nplacement = 'gauss'\n[[support]]\nface = 'bottom'\n"
       "[[rigid]]\nname = 'box'\nmin = [1.5, 1.5]\nmax = [2.5, 2]\nfree = true\nmass = 500\n"
       "[body_force]\nvalue = [0, 'g']\n" +
-      rubber + ends;
+      block_rubber + by_auto;
   const Summary s = run_text(free_box);
   check_moves_away(s, "'box'", "y");
   CHECK(s.contacts.at("box.displacement_y") < 1e5);

@@ -10,20 +10,15 @@
 #include <fmt/format.h>
 
 #include "scenes.hpp"
-#include "temporary_folder.hpp"
 
 using namespace stillpoint;
 using Catch::Matchers::Contains;
+using scenes::run_text;
 
 namespace {
 
-Summary run_text(const std::string& text, const std::vector<std::string>& set = {}) {
-  const stillpoint::test::TemporaryFolder folder;
-  return run(load_scene(folder.write("scene.toml", text), set), {.threads = 1});
-}
-
 /// Griffiths and Lane's slope of 1999, example 1, with its strength over F: 1.37 to 1.40 is the limit.
-Summary slope(double F, std::vector<std::string> set = {}) {
+Summary slope_of_strength(double F, std::vector<std::string> set = {}) {
   set.insert(set.begin(), fmt::format("constants.F={}", F));
   return run_text(R"toml(dim = 2
 constants = {gamma = 20e3, g = 9.81, H = 10.0, F = 1.0, phi0 = 20.0, c0 = "0.05*gamma*H"}
@@ -55,7 +50,7 @@ double crest(const Summary& s) {
 }
 
 /// A block on a wall with the friction 0.3, pushed by `share` of what that bears.
-Summary pushed(double share, std::vector<std::string> set = {}) {
+Summary pushed_block(double share, std::vector<std::string> set = {}) {
   set.insert(set.begin(), fmt::format("constants.share={}", share));
   return run_text(R"toml(dim = 2
 constants = {mu = 0.3, g = 10.0, share = 1.0}
@@ -110,11 +105,11 @@ TEST_CASE("a bar, a block and a strut that are elastic have no limit load, thoug
 }
 
 TEST_CASE("a slope that creeps is in equilibrium where it will be, whatever the residual and the energy asked for") {
-  const Summary close = slope(1.3, {"stop.residual=1e-7"});
+  const Summary close = slope_of_strength(1.3, {"stop.residual=1e-7"});
   REQUIRE(close.status == RunStatus::equilibrium);
   for (const char* residual : {"stop.residual=1e-1", "stop.residual=3e-3", "stop.residual=1e-5"}) {
     for (const char* energy : {"stop.kinetic_energy=1e-1", "stop.kinetic_energy=0"}) {
-      const Summary s = slope(1.3, {residual, energy});
+      const Summary s = slope_of_strength(1.3, {residual, energy});
       CAPTURE(residual, energy, s.reason);
       CHECK(s.status == RunStatus::equilibrium);
       CHECK(crest(s) == Approx(crest(close)).epsilon(0.01));
@@ -126,8 +121,8 @@ TEST_CASE("a slope that creeps is in equilibrium where it will be, whatever the 
 
 TEST_CASE("a slope at its limit is in no equilibrium while it still goes two thirds of its way") {
   for (const char* strategy : {"viscous", "auto"}) {
-    const Summary s = slope(1.4, {"stop.residual=3e-3", "stop.kinetic_energy=1e-2", "stop.steps=12000",
-                                  std::string("damping.strategy=") + strategy});
+    const Summary s = slope_of_strength(1.4, {"stop.residual=3e-3", "stop.kinetic_energy=1e-2", "stop.steps=12000",
+                                              std::string("damping.strategy=") + strategy});
     CAPTURE(strategy, s.reason, crest(s));
     if (s.exit_status == 0) CHECK(crest(s) > 0.2);  // (0.146, -0.165) in the end
     if (s.exit_status != 0) CHECK_THAT(s.reason, Contains("it slides"));
@@ -135,7 +130,7 @@ TEST_CASE("a slope at its limit is in no equilibrium while it still goes two thi
 }
 
 TEST_CASE("a slope that ends because one phase squeezes its grid is no equilibrium without a word in its status") {
-  const Summary s = slope(1.5, {"stop.steps=100000"});
+  const Summary s = slope_of_strength(1.5, {"stop.steps=100000"});
   CAPTURE(s.reason);
   CHECK_THAT(s.reason, Contains("it slides") || Contains("in a single phase"));
   CHECK((s.exit_status == 3 || s.single_phase_strain.value() <= 1));
@@ -147,16 +142,16 @@ TEST_CASE("a block that is pushed by more than its friction slides: which wall, 
                                               {"damping.c=20"},
                                               {"constants.mu=0.6", "stop.residual=1e-1", "stop.kinetic_energy=1e-1"},
                                               {"damping.strategy=one-sided"}}) {
-    const Summary s = pushed(1.03, set);
+    const Summary s = pushed_block(1.03, set);
     CAPTURE(set.empty() ? "" : set.front(), s.reason, s.t);
     CHECK(s.exit_status == 3);
     CHECK_THAT(s.reason, Contains("it slides: along wall 'floor'") && Contains("m/s"));
     CHECK(s.steps < 200000);
   }
   // M c v = 0.03 μ g M
-  CHECK_THAT(pushed(1.03).reason, Contains("0.009 m/s"));
+  CHECK_THAT(pushed_block(1.03).reason, Contains("0.009 m/s"));
   for (const char* strategy : {"viscous", "kinetic", "auto"}) {
-    const Summary held = pushed(0.9, {std::string("damping.strategy=") + strategy});
+    const Summary held = pushed_block(0.9, {std::string("damping.strategy=") + strategy});
     CAPTURE(strategy, held.reason);
     CHECK(held.status == RunStatus::equilibrium);
   }

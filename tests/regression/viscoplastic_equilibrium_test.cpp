@@ -1,5 +1,4 @@
 // A viscoplastic body is at rest for good only where no point is stressed beyond its strength.
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -7,14 +6,17 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "says.hpp"
 #include "scenes.hpp"
 
 using namespace stillpoint;
+using scenes::with;
+using stillpoint::test::says;
 
 namespace {
 
 // A block of clay, smooth at its left and its bottom, that bears 2 c = 20 kPa.
-const std::string block = R"(
+const std::string clay_block = R"(
 dim = 2
 [grid]
 min = [0, 0]
@@ -55,18 +57,10 @@ fields = ["stress.yy", "u.y", "plastic_strain"]
 const std::vector<std::string> in_part = {"grid.max=[3,1]", "grid.cells=[6,2]",
                                           "traction=[{line=[[0,1],[1,1]], value=[0,-2.6e4]}]", "probe[0].at=[0.5,0.9]"};
 
-std::vector<std::string> both(std::vector<std::string> a, const std::vector<std::string>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
+Summary end_of_clay(const std::vector<std::string>& set) {
+  return run(load_scene("block.toml", clay_block, set), {.threads = 1});
 }
-
-Summary end_of(const std::vector<std::string>& set) {
-  return run(load_scene("block.toml", block, set), {.threads = 1});
-}
-double settlement(const Summary& s) { return scenes::probe(s, "m", "u.y"); }
-bool says(const Summary& s, const std::string& part) {
-  return std::ranges::any_of(s.notes, [&](const std::string& note) { return note.find(part) != std::string::npos; });
-}
+double settlement_of_block(const Summary& s) { return scenes::probe(s, "m", "u.y"); }
 
 }  // namespace
 
@@ -75,8 +69,9 @@ TEST_CASE("no static solver finds an equilibrium of viscoplastic material beyond
     for (const char* fluidity : {"1e-12", "1e-7", "1"}) {
       for (const char* load : {"-6e4", "-8e4"}) {  // less of it a block bears that spreads
         CAPTURE(method, fluidity, load);
-        const Summary s = end_of({fmt::format("solve.method={}", method), fmt::format("traction[0].value=[0,{}]", load),
-                                  fmt::format("material.clay.fluidity={}", fluidity), "stop.steps=2000"});
+        const Summary s =
+            end_of_clay({fmt::format("solve.method={}", method), fmt::format("traction[0].value=[0,{}]", load),
+                         fmt::format("material.clay.fluidity={}", fluidity), "stop.steps=2000"});
         CAPTURE(s.reason);
         CHECK(s.exit_status >= 3);
         CHECK(says(s, "material.clay.fluidity has no part in a static solution"));
@@ -88,15 +83,15 @@ TEST_CASE("no static solver finds an equilibrium of viscoplastic material beyond
 TEST_CASE("below the limit a static solver's answer is that of the rate-independent law, bit for bit, and it says so") {
   for (const char* method : {"newton", "newton-cg", "cg", "lbfgs"}) {
     CAPTURE(method);
-    const auto with = [&](const char* fluidity) {
-      return end_of(both(in_part, {fmt::format("solve.method={}", method), "solve.load_steps=4",
-                                   fmt::format("material.clay.fluidity={}", fluidity)}));
+    const auto of_fluidity = [&](const char* fluidity) {
+      return end_of_clay(with(in_part, {fmt::format("solve.method={}", method), "solve.load_steps=4",
+                                        fmt::format("material.clay.fluidity={}", fluidity)}));
     };
-    const Summary viscous = with("1e-7"), plastic = with("0");
+    const Summary viscous = of_fluidity("1e-7"), plastic = of_fluidity("0");
     CAPTURE(viscous.reason);
     CHECK(viscous.status == RunStatus::equilibrium);
     CHECK(scenes::probe(viscous, "m", "plastic_strain") > 1e-5);
-    CHECK(settlement(viscous) == settlement(plastic));
+    CHECK(settlement_of_block(viscous) == settlement_of_block(plastic));
     CHECK(says(viscous, "has no part in a static solution"));
     CHECK_FALSE(says(plastic, "has no part in a static solution"));
   }
@@ -110,7 +105,7 @@ TEST_CASE("a relaxation that creeps beyond its strength is at no equilibrium, an
         {"damping.strategy=cundall", "material.clay.fluidity=1e-12", "phase.max_motion=0.1"},
         {"damping.strategy=auto", "material.clay.fluidity=1e-12", "traction[0].value=[0,-2.1e4]"}}) {
     CAPTURE(set);
-    const Summary s = end_of(set);
+    const Summary s = end_of_clay(set);
     CAPTURE(s.reason);
     CHECK(s.status == RunStatus::step_limit);
     CHECK(s.exit_status == 3);
@@ -119,24 +114,25 @@ TEST_CASE("a relaxation that creeps beyond its strength is at no equilibrium, an
     CHECK(says(s, "time constant"));
   }
   // Elastic: σ_yy = −40 kPa and σ_zz = −12 kPa, √J₂ = 20.5 kPa of c = 10 kPa.
-  const Summary s = end_of({"damping.strategy=auto", "material.clay.fluidity=1e-12"});
+  const Summary s = end_of_clay({"damping.strategy=auto", "material.clay.fluidity=1e-12"});
   CAPTURE(s.reason);
   CHECK(s.reason.find("the yield function is 1.05 of the strength") != std::string::npos);
 }
 
 TEST_CASE(
     "below the limit a relaxation comes to the rate-independent equilibrium as soon as its over-stress has gone") {
-  const double plastic = settlement(end_of(both(in_part, {"solve.method=newton", "solve.load_steps=16"})));
+  const double plastic =
+      settlement_of_block(end_of_clay(with(in_part, {"solve.method=newton", "solve.load_steps=16"})));
   const std::vector<std::string> slowly =
-      both(in_part,
+      with(in_part,
            {"traction=[{line=[[0,1],[1,1]], value=[0,'-2.6e4*min(t/5,1)']}]", "stop.time=2000", "stop.steps=4000000"});
   double last = 0;
   for (const char* fluidity : {"1e-5", "1e-6", "1e-7"}) {
     const Summary s =
-        end_of(both(slowly, {fmt::format("material.clay.fluidity={}", fluidity), "damping.strategy=viscous"}));
+        end_of_clay(with(slowly, {fmt::format("material.clay.fluidity={}", fluidity), "damping.strategy=viscous"}));
     CAPTURE(fluidity, s.reason, s.t);
     CHECK(s.status == RunStatus::equilibrium);
-    CHECK(settlement(s) == Approx(plastic).epsilon(0.02));
+    CHECK(settlement_of_block(s) == Approx(plastic).epsilon(0.02));
     CHECK(s.t > last);  // the slower, the later
     last = s.t;
   }

@@ -7,10 +7,9 @@
 #include <fmt/format.h>
 
 #include "scenes.hpp"
-#include "temporary_folder.hpp"
 
 using namespace stillpoint;
-using stillpoint::test::TemporaryFolder;
+using scenes::run_text;
 
 namespace {
 
@@ -58,12 +57,7 @@ at = [0.5, 0.5]
 fields = ["u.x", "u.y", "stress.xx"]
 )";
 
-Summary run_scene(const std::string& text, const std::vector<std::string>& overrides) {
-  const TemporaryFolder folder;
-  return run(load_scene(folder.write("scene.toml", text), overrides));
-}
-
-std::vector<std::string> with(std::vector<std::string> all, const std::string& more) {
+std::vector<std::string> with_support(std::vector<std::string> all, const std::string& more) {
   if (!more.empty()) all.push_back(more);
   return all;
 }
@@ -87,7 +81,7 @@ TEST_CASE("an axisymmetric body does not move off its axis: it needs no support 
     const std::vector<std::string> overrides = {
         fmt::format("grid.basis={}", c.basis), fmt::format("material.m.law={}", c.law),
         fmt::format("phase.max_motion={}", c.motion), fmt::format("body.points_per_cell={}", c.points)};
-    const Summary free = run_scene(cylinder, overrides), held = run_scene(cylinder, with(overrides, roller));
+    const Summary free = run_text(cylinder, overrides), held = run_text(cylinder, with_support(overrides, roller));
     REQUIRE(free.status == RunStatus::equilibrium);
     REQUIRE(held.status == RunStatus::equilibrium);
     for (const char* place : {"axis", "top"})
@@ -108,11 +102,11 @@ TEST_CASE("a body with a hole is not held at its axis, however narrow the hole")
     for (const double hole : {0.01, 0.1, 0.24}) {  // cells are 0.25 wide
       CAPTURE(basis, hole);
       const Summary s =
-          run_scene(cylinder, {fmt::format("grid.basis={}", basis), fmt::format("body.min=[{}, 0]", hole),
-                               "body.points_per_cell=16", "material.m.law=linear-elastic", "body.placement=gauss",
-                               "traction=[{face='top', value=[0, -15]}]", "support=[{face='bottom', kind='roller'}]",
-                               "phase.max_motion=none",
-                               fmt::format("probe=[{{name='inner', at=[{}, 0.5], fields=['u.x']}}]", hole + 1e-9)});
+          run_text(cylinder, {fmt::format("grid.basis={}", basis), fmt::format("body.min=[{}, 0]", hole),
+                              "body.points_per_cell=16", "material.m.law=linear-elastic", "body.placement=gauss",
+                              "traction=[{face='top', value=[0, -15]}]", "support=[{face='bottom', kind='roller'}]",
+                              "phase.max_motion=none",
+                              fmt::format("probe=[{{name='inner', at=[{}, 0.5], fields=['u.x']}}]", hole + 1e-9)});
       REQUIRE(s.status == RunStatus::equilibrium);
       // Uniaxial stress: u_r = ν σ/E r. Its gradient is what any basis has; held, it would be 0 at the hole.
       CHECK(scenes::probe(s, "inner", "u.x") == Approx(0.3 * 15 / 100 * hole).epsilon(1e-4));
@@ -125,7 +119,7 @@ TEST_CASE("a blind bore is free, and the body below it is held") {
   std::string text = cylinder;
   const std::string box = "max = [1, 1]\n";
   text.replace(text.find(box), box.size(), "polygon = [[0, 0], [1, 0], [1, 1], [0.1, 1], [0.1, 0.5], [0, 0.5]]\n");
-  const Summary s = run_scene(
+  const Summary s = run_text(
       text, {"material.m.law=linear-elastic", "phase.max_motion=none", "body.points_per_cell=9",
              "traction=[{line=[[0.1, 1], [1, 1]], value=[0, -15]}]",
              "probe=[{name='axis', at=[0, 0.25], fields=['u.x']}, {name='bore', at=[0.1, 0.9], fields=['u.x']}]"});

@@ -13,7 +13,7 @@ using namespace stillpoint;
 
 namespace {
 
-std::string refusal(const std::string& constants, const std::vector<std::string>& overrides = {}) {
+std::string refusal_of_constants(const std::string& constants, const std::vector<std::string>& overrides = {}) {
   const test::TemporaryFolder folder;
   const auto file = folder.write("scene.toml", "dim = 1\n[constants]\n" + constants);
   try {
@@ -29,10 +29,11 @@ std::string refusal(const std::string& constants, const std::vector<std::string>
 TEST_CASE("a constant called like a number, a function or a variable of formulas is refused where it stands") {
   for (const char* name : {"pi", "e", "sin", "max", "bessel_j0", "x", "y", "z", "t"}) {
     CAPTURE(name);
-    const std::string said = refusal(fmt::format("a = 1\n  {} = 3\n", name));
+    const std::string said = refusal_of_constants(fmt::format("a = 1\n  {} = 3\n", name));
     CHECK(said.find("scene.toml:4:3: ") != std::string::npos);
     CHECK(said.find(fmt::format("'{}' cannot be a constant's name", name)) != std::string::npos);
   }
-  CHECK(refusal("", {"constants.pi=3"}).find("'pi' cannot be a constant's name") != std::string::npos);
-  CHECK(refusal("E = 3\nPi = 3\npi_2 = 'pi/2'\nee = 'e'\n").find("cannot be a constant's name") == std::string::npos);
+  CHECK(refusal_of_constants("", {"constants.pi=3"}).find("'pi' cannot be a constant's name") != std::string::npos);
+  CHECK(refusal_of_constants("E = 3\nPi = 3\npi_2 = 'pi/2'\nee = 'e'\n").find("cannot be a constant's name") ==
+        std::string::npos);
 }

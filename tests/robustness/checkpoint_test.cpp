@@ -16,6 +16,7 @@
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
+using scenes::with;
 using stillpoint::test::contents;
 using stillpoint::test::json_of;
 using stillpoint::test::resumed;
@@ -25,15 +26,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Case {
+struct BrokenOff {
   const char* scene;
   std::vector<std::string> set;
 };
-
-std::vector<std::string> with(std::vector<std::string> set, const std::vector<std::string>& more) {
-  set.insert(set.end(), more.begin(), more.end());
-  return set;
-}
 
 // The process ends within a step, after some of them.
 void break_off(const Scene& scene, const fs::path& out, long steps) {
@@ -41,7 +37,7 @@ void break_off(const Scene& scene, const fs::path& out, long steps) {
   while (!simulation.done() && simulation.steps() < steps) simulation.step();
 }
 
-void check_same_bits(const Case& one, long steps) {
+void check_same_bits(const BrokenOff& one, long steps) {
   const Scene scene = scenes::load(one.scene, with({"checkpoint.every_steps=20"}, one.set));
   CAPTURE(one.scene, one.set);
   const TemporaryFolder folder;

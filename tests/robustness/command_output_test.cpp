@@ -54,7 +54,7 @@ double number_after(const std::string& label, const std::string& text) {
   return std::stod(text.substr(at + label.size()));
 }
 
-const std::string bar = STILLPOINT_PROBLEMS "/bar.toml";
+const std::string bar_file = STILLPOINT_PROBLEMS "/bar.toml";
 
 }  // namespace
 
@@ -86,7 +86,7 @@ TEST_CASE("list keys gives the reference in Markdown, and a schema that names th
 
 TEST_CASE(
     "check says the points, unknowns, frequency and step of the model that a run would have, and writes nothing") {
-  const std::string said = printed("check " + bar);
+  const std::string said = printed("check " + bar_file);
   const Model model = make_model(scenes::bar());
   CHECK(lines_of(said).at(0) == scenes::bar().title);
   CHECK_THAT(said, Contains(fmt::format("  points           {}, mass 10 kg", model.phase->points())));
@@ -97,7 +97,7 @@ TEST_CASE(
 }
 
 TEST_CASE("check says how long cells are along an axis where they are unequal") {
-  CHECK_THAT(printed("check " + bar), !Contains("cells along"));
+  CHECK_THAT(printed("check " + bar_file), !Contains("cells along"));
   const std::string said = printed("check " STILLPOINT_PROBLEMS
                                    "/cylinder.toml --set \"grid.x=[[1, 1.7, 3, 4], [1.7, 2, 1]]\" "
                                    "--set \"grid.y=[[0, 0.25, 2]]\"");
@@ -106,7 +106,7 @@ TEST_CASE("check says how long cells are along an axis where they are unequal") 
 }
 
 TEST_CASE("check sums the bytes of a point and the memory of a run to what it says of them together") {
-  const std::vector<std::string> said = lines_of(printed("check " + bar));
+  const std::vector<std::string> said = lines_of(printed("check " + bar_file));
   const auto sum_from = [&](const std::string& head) {
     double sum = 0;
     auto line = std::ranges::find_if(said, [&](const std::string& l) { return l.starts_with(head); });
@@ -129,7 +129,7 @@ TEST_CASE("check says which rule chose what a scene leaves open, and nothing of 
 }
 
 TEST_CASE("spectrum prints the bar's frequencies by each method, kappa and the critical damping") {
-  const std::string said = printed("spectrum " + bar);
+  const std::string said = printed("spectrum " + bar_file);
   for (const std::string row : {"omega_1   Lanczos", "omega_1   ARPACK"}) {
     const auto at = said.find(row);
     REQUIRE(at != std::string::npos);
@@ -137,8 +137,9 @@ TEST_CASE("spectrum prints the bar's frequencies by each method, kappa and the c
   }
   CHECK(number_after("(omega_max/omega_1)^2 = ", said) == Approx(std::pow(5.81539857 / 0.15707217, 2)).epsilon(1e-6));
   CHECK(number_after("c = 2 omega_1 = ", said) == Approx(2 * 0.15707217).epsilon(1e-7));
-  CHECK_THAT(printed("spectrum " + bar + " --set support=[] --set damping.strategy=viscous --set damping.c=critical"),
-             Contains("critical steps   not known: c = \"critical\" needs omega_1"));
+  CHECK_THAT(
+      printed("spectrum " + bar_file + " --set support=[] --set damping.strategy=viscous --set damping.c=critical"),
+      Contains("critical steps   not known: c = \"critical\" needs omega_1"));
 }
 
 TEST_CASE("run prints its table of the end, quiet prints nothing, and both write into out/<scene> unless told") {

@@ -11,10 +11,12 @@
 #include <catch2/catch.hpp>
 
 #include "convergence_studies.hpp"
+#include "scenes.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
 using namespace stillpoint::test;
+using scenes::with;
 
 TEST_CASE("a bar with a manufactured solution has the order of its basis in every norm") {
   struct Case {

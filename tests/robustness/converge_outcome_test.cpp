@@ -15,10 +15,12 @@
 #include "child.hpp"
 #include "convergence_studies.hpp"
 #include "files.hpp"
+#include "scenes.hpp"
 #include "temporary_folder.hpp"
 
 using namespace stillpoint;
 using namespace stillpoint::test;
+using scenes::with;
 namespace fs = std::filesystem;
 
 TEST_CASE("a level that is no scene is refused with the key of the scene's file that made it so") {

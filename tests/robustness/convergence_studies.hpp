@@ -44,9 +44,4 @@ inline std::filesystem::path without_exact(const std::string& problem, const Tem
 inline const std::vector<std::string> swinging = {"damping.strategy=none", "stop.residual=0", "stop.time=3",
                                                   "integrator.step_fraction=0.2"};
 
-inline std::vector<std::string> with(std::vector<std::string> set, const std::vector<std::string>& more) {
-  set.insert(set.end(), more.begin(), more.end());
-  return set;
-}
-
 }  // namespace stillpoint::test

@@ -17,7 +17,7 @@ using scenes::bar;
 namespace {
 
 // A bar whose end is pushed past its beginning: no step is short enough.
-std::vector<std::string> crushed(const std::string& method) {
+std::vector<std::string> crushed_by(const std::string& method) {
   return {"material.bar.law=neo-hookean",
           "force=[]",
           "support=[{at=0.0}, {at=10.0, u='-0.2*t'}]",
@@ -28,7 +28,7 @@ std::vector<std::string> crushed(const std::string& method) {
           "integrator.method=" + method};
 }
 
-std::string refusal(const LagrangianPhase& phase, std::vector<double> u) {
+std::string refusal_of_state(const LagrangianPhase& phase, std::vector<double> u) {
   const auto trial = phase.make_trial();
   std::vector<double> R(phase.size());
   REQUIRE_FALSE(phase.internal_force(0, u, R, *trial));
@@ -40,7 +40,7 @@ std::string refusal(const LagrangianPhase& phase, std::vector<double> u) {
 TEST_CASE("a state that cannot be evaluated is told with its time, step, point, cell, det f and a remedy") {
   const stillpoint::test::TemporaryFolder folder;
   for (const char* method : {"leapfrog", "symplectic-euler", "erk:rk4", "gsl:rk4"}) {
-    const Summary s = run(bar(crushed(method)), {.out = folder.path()});
+    const Summary s = run(bar(crushed_by(method)), {.out = folder.path()});
     CAPTURE(method, s.reason);
     CHECK(s.status == RunStatus::diverged);
     CHECK_THAT(s.reason, Matches("at t = \\d.* s, after \\d+ steps, in phase 1: .*material point \\d+ at x = \\S+ in "
@@ -64,7 +64,7 @@ TEST_CASE("of several points that are inside out the one is named that is so mos
   }
   REQUIRE(middle < u.size());
   u[middle] = -20;
-  const std::string said = refusal(*model.phase, u);
+  const std::string said = refusal_of_state(*model.phase, u);
   CAPTURE(said);
   CHECK_THAT(said, Contains("material point 5 at x = 3.75 in cell 2"));
   CHECK_THAT(said, Contains("det f = -11 <= 0") && Contains("other points"));
@@ -74,7 +74,7 @@ TEST_CASE("a motion too far for one phase is told with the node that goes furthe
   const Model model = make_model(stillpoint::test::free_block());
   std::vector<double> u(model.phase->size(), 0.0);
   u[3] = 1;
-  const std::string said = refusal(*model.phase, u);
+  const std::string said = refusal_of_state(*model.phase, u);
   CHECK_THAT(said, Contains(to_string(model.phase->diagnosis().of_unknown(3))) && Contains("would move by 1 m") &&
                        Contains("expected a smaller integrator.step_fraction"));
 }
@@ -83,7 +83,7 @@ TEST_CASE("a law that gives no number is told with the component of the stress, 
   const Model model = make_model(scenes::load("column", {"material.soil={law='hencky', E=1e7, nu=0.2, rho=2000}"}));
   std::vector<double> u(model.phase->size(), 0.0);
   u[0] = std::numeric_limits<double>::max();
-  const std::string said = refusal(*model.phase, u);
+  const std::string said = refusal_of_state(*model.phase, u);
   CAPTURE(said);
   CHECK_THAT(said, Matches(".*material point \\d+ at \\(.*\\) in cell \\(\\d+, \\d+\\).*"));
 }

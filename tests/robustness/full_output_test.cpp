@@ -14,12 +14,12 @@ using namespace stillpoint;
 
 namespace {
 
-struct Answer {
+struct Ending {
   int status = -1;
   std::string said;
 };
 
-Answer into(const std::string& device, const std::string& arguments, const test::TemporaryFolder& folder) {
+Ending into(const std::string& device, const std::string& arguments, const test::TemporaryFolder& folder) {
   const std::string messages = (folder.path() / "messages").string();
   const int status =
       std::system(fmt::format("'{}' {} > {} 2> '{}'", STILLPOINT_BINARY, arguments, device, messages).c_str());
@@ -37,7 +37,7 @@ TEST_CASE("every command whose output finds no room ends with status 4 and says 
         fmt::format("compare {} --strategies viscous --repeats 0 --out {}-compare", bar, out),
         fmt::format("converge {} --levels 2 --no-sources --out {}-converge", bar, out)}) {
     CAPTURE(command);
-    const Answer full = into("/dev/full", command, folder);
+    const Ending full = into("/dev/full", command, folder);
     CHECK(full.status == 4);
     CAPTURE(full.said);
     CHECK(full.said.find("cannot write to") != std::string::npos);

@@ -6,16 +6,15 @@
 #include <catch2/catch.hpp>
 
 #include "scenes.hpp"
-#include "temporary_folder.hpp"
 
 using namespace stillpoint;
-using stillpoint::test::TemporaryFolder;
+using scenes::run_text;
 
 namespace {
 
 // A cantilever that bends across cells in many phases: points come to lie next to the edges of cells, whose other
 // functions they hardly reach.
-constexpr const char* cantilever = R"(
+constexpr const char* soft_cantilever = R"(
 dim = 2
 [grid]
 min = [0, -1]
@@ -51,11 +50,6 @@ fields = ["u.x", "u.y"]
 max_motion = 0.1
 )";
 
-Summary run_scene(const std::vector<std::string>& overrides) {
-  const TemporaryFolder folder;
-  return run(load_scene(folder.write("scene.toml", cantilever), overrides));
-}
-
 bool says_neutral(const Summary& s) {
   return std::ranges::any_of(s.notes,
                              [](const std::string& note) { return note.find("neutral") != std::string::npos; });
@@ -74,7 +68,7 @@ TEST_CASE("functions that hardly reach a body that is held make no neutral equil
   };
   for (const auto& variant : variants) {
     CAPTURE(variant);
-    const Summary s = run_scene(variant);
+    const Summary s = run_text(soft_cantilever, variant);
     REQUIRE(s.status == RunStatus::equilibrium);
     CHECK_FALSE(says_neutral(s));
     CHECK((s.stability == "stable" || s.stability.empty()));  // empty: too many such functions to tell
@@ -84,10 +78,10 @@ TEST_CASE("functions that hardly reach a body that is held make no neutral equil
 TEST_CASE("a body in phases that nothing holds is in neutral equilibrium, whatever hardly reaches it") {
   for (const char* basis : {"linear", "quadratic", "cubic"}) {
     CAPTURE(basis);
-    const Summary s =
-        run_scene({std::string("grid.basis=") + basis, "support=[]", "body[0].min=[1, 0]", "body_force.value=[0, 0]",
-                   "traction=[{line=[[1, 0], [1, 1]], value=[-20, 0]}, {line=[[4, 0], [4, 1]], "
-                   "value=[20, 0]}]"});
+    const Summary s = run_text(
+        soft_cantilever, {std::string("grid.basis=") + basis, "support=[]", "body[0].min=[1, 0]", "body_force.value=[0, 0]",
+                     "traction=[{line=[[1, 0], [1, 1]], value=[-20, 0]}, {line=[[4, 0], [4, 1]], "
+                     "value=[20, 0]}]"});
     REQUIRE(s.status == RunStatus::equilibrium);
     CHECK(says_neutral(s));
   }

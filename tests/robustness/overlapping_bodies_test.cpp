@@ -8,7 +8,7 @@ using stillpoint::test::TemporaryFolder;
 namespace {
 
 // A grid of 8 × 8 cells on 4 m × 4 m, and these bodies of one soil.
-std::string scene_with(const std::vector<std::string>& bodies) {
+std::string scene_of_bodies(const std::vector<std::string>& bodies) {
   std::string text =
       "dim = 2\n[grid]\nmin = [0, 0]\nmax = [4, 4]\ncells = [8, 8]\n[material.m]\nlaw = \"linear-elastic\"\nE = 1.0\n"
       "nu = 0.3\nrho = 1.0\n[[support]]\nface = \"bottom\"\n[body_force]\nvalue = [0, -1e-3]\n[stop]\nresidual = "
@@ -19,7 +19,7 @@ std::string scene_with(const std::vector<std::string>& bodies) {
 
 std::vector<std::string> overlaps(const TemporaryFolder& folder, const std::vector<std::string>& bodies) {
   std::vector<std::string> messages;
-  for (const Mistake& problem : problems_of(folder.write("scene.toml", scene_with(bodies))))
+  for (const Mistake& problem : problems_of(folder.write("scene.toml", scene_of_bodies(bodies))))
     messages.push_back(problem.message);
   return messages;
 }

@@ -22,7 +22,7 @@ using scenes::bar;
 namespace {
 
 // Whose end is pushed past its beginning within 10 s.
-std::vector<std::string> crushed() {
+std::vector<std::string> crushed_past_zero() {
   return {"material.bar.law=neo-hookean",
           "force=[]",
           "support=[{at=0.0}, {at=10.0, u='-t'}]",
@@ -86,7 +86,7 @@ TEST_CASE("an unstable step is refused unless the scene says why, and then diver
 }
 
 TEST_CASE("a bar crushed past zero length is reported as diverged, not as a number") {
-  const Summary s = run(bar(crushed()));
+  const Summary s = run(bar(crushed_past_zero()));
   CHECK(s.status == RunStatus::diverged);
   CHECK(s.exit_status == 4);
 }
@@ -120,7 +120,7 @@ TEST_CASE("Ctrl-C ends the command in good order with status 3") {
 
 TEST_CASE("a failed run reports its last good state, the same in summary and history") {
   const TemporaryFolder folder;
-  const Summary s = run(bar(crushed()), {.out = folder.path()});
+  const Summary s = run(bar(crushed_past_zero()), {.out = folder.path()});
   CHECK(s.status == RunStatus::diverged);
   const auto history = lines(folder.path() / "history.csv");
   REQUIRE(history.size() == 3);
@@ -170,7 +170,7 @@ TEST_CASE("an initial state that cannot be evaluated or is unstable is refused b
 }
 
 TEST_CASE("the residual of a failed run is that of its last good state, not of the trial that failed") {
-  const Summary s = run(bar(crushed()));
+  const Summary s = run(bar(crushed_past_zero()));
   REQUIRE(s.status == RunStatus::diverged);
   CHECK(std::isfinite(s.residual));
 }

@@ -30,7 +30,7 @@ constexpr double soon = 2;  // [s] of the processor's time
 const std::string header = "t,steps,rhs_evaluations,residual,kinetic_energy\n";
 
 // A set-up of many seconds.
-const std::vector<std::string> large = {"grid.cells=[300, 300]", "grid.basis=quadratic"};
+const std::vector<std::string> large_run = {"grid.cells=[300, 300]", "grid.basis=quadratic"};
 
 void check_good_order(Child& child, const fs::path& out) {
   const double before = child.seconds();
@@ -60,7 +60,7 @@ TEST_CASE("a signal during the set-up ends it soon, whatever it is at, with a su
   for (const double after : {-1.0, 0.1, 0.7, 1.5, 2.5}) {
     for (const int signal : {SIGTERM, after < 1 ? SIGINT : SIGHUP}) {
       const TemporaryFolder folder;
-      Child child(run_of("inclusion", large, folder.path()), {}, "/dev/null");
+      Child child(run_of("inclusion", large_run, folder.path()), {}, "/dev/null");
       CAPTURE(signal, after);
       // [s]; -1: as soon as it watches for signals.
       CHECK(child.wait_until([&] { return child.seconds() > after && child.heeds(signal); }));
@@ -76,7 +76,7 @@ TEST_CASE("a signal during the set-up ends it soon, whatever it is at, with a su
 
 TEST_CASE("stop.wall_time ends a set-up that takes longer") {
   const TemporaryFolder folder;
-  std::vector<std::string> set = large;
+  std::vector<std::string> set = large_run;
   set.emplace_back("stop.wall_time=0.5");
   Child child(run_of("inclusion", set, folder.path()), {}, "/dev/null");
   CHECK(child.wait() == 3);

@@ -9,11 +9,10 @@
 #include <fmt/format.h>
 
 #include "scenes.hpp"
-#include "temporary_folder.hpp"
 
 using namespace stillpoint;
 using Catch::Contains;
-using stillpoint::test::TemporaryFolder;
+using scenes::run_text;
 
 namespace {
 
@@ -46,12 +45,7 @@ at = [4, 0.5, 0.5]
 fields = ["u.y"]
 )";
 
-Summary run_scene(const std::string& text, const std::vector<std::string>& overrides) {
-  const TemporaryFolder folder;
-  return run(load_scene(folder.write("scene.toml", text), overrides));
-}
-
-const std::vector<std::string> ways = {"solve.method=newton", "solve.method=newton-cg", "solve.method=cg",
+const std::vector<std::string> ways_to_rest = {"solve.method=newton", "solve.method=newton-cg", "solve.method=cg",
                                        "solve.method=lbfgs", "damping.strategy=auto"};
 
 }  // namespace
@@ -65,11 +59,11 @@ TEST_CASE("one point a cell in space: every way leads to the answer without hour
   };
   for (const auto& variant : variants) {
     double reference = 0;
-    for (const std::string& way : ways) {
+    for (const std::string& way : ways_to_rest) {
       auto overrides = variant;
       overrides.push_back(way);
       CAPTURE(overrides);
-      const Summary s = run_scene(beam, overrides);
+      const Summary s = run_text(beam, overrides);
       REQUIRE(s.status == RunStatus::equilibrium);
       const double u = scenes::probe(s, "c", "u.y");
       if (reference == 0) reference = u;

@@ -11,7 +11,7 @@ using stillpoint::test::TemporaryFolder;
 
 namespace {
 
-struct Case {
+struct Threaded {
   const char* scene;
   std::vector<std::string> set;
 };
@@ -33,7 +33,7 @@ void check_threads(const Scene& scene, std::initializer_list<int> numbers) {
   }
 }
 
-void check_threads(const Case& one, std::initializer_list<int> numbers) {
+void check_threads(const Threaded& one, std::initializer_list<int> numbers) {
   CAPTURE(one.scene, one.set);
   check_threads(scenes::load(one.scene, one.set), numbers);
 }
@@ -41,7 +41,7 @@ void check_threads(const Case& one, std::initializer_list<int> numbers) {
 }  // namespace
 
 TEST_CASE("every problem has the same history and the same frequencies for 1, 2, 3 and 8 threads") {
-  const std::vector<Case> cases = {
+  const std::vector<Threaded> cases = {
       {"bar", {}},
       {"chain", {"stop.steps=200"}},
       {"block", {}},
@@ -62,7 +62,7 @@ TEST_CASE("every problem has the same history and the same frequencies for 1, 2,
       {"ladder/triaxial_clay", {"grid.cells=[48, 40]", "stop.steps=60"}},
       {"slope", {"grid.cells=[80, 32]", "stop.steps=20", "grid.basis=quadratic", "phase.dilatation=splines"}},
   };
-  for (const Case& one : cases) check_threads(one, {2, 3, 8});
+  for (const Threaded& one : cases) check_threads(one, {2, 3, 8});
 }
 
 TEST_CASE("soil in space behind a wall, in phases, has the same history for 1, 2, 3 and 8 threads") {

@@ -6,15 +6,14 @@
 #include <fmt/format.h>
 
 #include "scenes.hpp"
-#include "temporary_folder.hpp"
 
 using namespace stillpoint;
-using stillpoint::test::TemporaryFolder;
+using scenes::run_text;
 
 namespace {
 
 // A cantilever under its weight and a pressure, of strains of about `load`.
-std::string cantilever(int dim, const std::string& law, double load, const std::string& way) {
+std::string loaded_cantilever(int dim, const std::string& law, double load, const std::string& way) {
   const bool space = dim == 3;
   return fmt::format(R"(
 dim = {}
@@ -55,12 +54,7 @@ fields = ["u.y", "stress.xx"]
                      30 * load, way, space ? ", 0.6" : "");
 }
 
-Summary run_scene(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  const TemporaryFolder folder;
-  return run(load_scene(folder.write("scene.toml", text), overrides));
-}
-
-const std::vector<std::string> ways = {"[solve]\nmethod = \"newton\"",      "[solve]\nmethod = \"cg\"",
+const std::vector<std::string> tables_of_ways = {"[solve]\nmethod = \"newton\"",      "[solve]\nmethod = \"cg\"",
                                        "[solve]\nmethod = \"lbfgs\"",       "[damping]\nstrategy = \"auto\"",
                                        "[damping]\nstrategy = \"viscous\"", "[damping]\nstrategy = \"kinetic\""};
 
@@ -69,10 +63,10 @@ const std::vector<std::string> ways = {"[solve]\nmethod = \"newton\"",      "[so
 TEST_CASE("a load of any smallness bends an elastic body of finite strain as Hooke's law says, by any way to it") {
   for (const char* law : {"neo-hookean", "hencky"}) {
     for (const double load : {1e-9, 1e-12, 1e-20, 1e-40}) {
-      for (const std::string& way : ways) {
+      for (const std::string& way : tables_of_ways) {
         CAPTURE(law, load, way);
-        const Summary exact = run_scene(cantilever(2, "linear-elastic", load, way));
-        const Summary s = run_scene(cantilever(2, law, load, way));
+        const Summary exact = run_text(loaded_cantilever(2, "linear-elastic", load, way));
+        const Summary s = run_text(loaded_cantilever(2, law, load, way));
         REQUIRE(s.status == RunStatus::equilibrium);
         // The residual allows 1e-8 times the body's condition; terms of second order are below it.
         for (const char* field : {"u.y", "stress.xx"})
@@ -85,17 +79,17 @@ TEST_CASE("a load of any smallness bends an elastic body of finite strain as Hoo
 TEST_CASE("in space as well, and where points share their change of volume") {
   for (const char* law : {"neo-hookean", "hencky"}) {
     for (const double load : {1e-12, 1e-20}) {
-      for (const std::string& way : {ways[0], ways[3]}) {
+      for (const std::string& way : {tables_of_ways[0], tables_of_ways[3]}) {
         CAPTURE(law, load, way);
-        const Summary exact = run_scene(cantilever(3, "linear-elastic", load, way));
-        const Summary s = run_scene(cantilever(3, law, load, way));
+        const Summary exact = run_text(loaded_cantilever(3, "linear-elastic", load, way));
+        const Summary s = run_text(loaded_cantilever(3, law, load, way));
         REQUIRE(s.status == RunStatus::equilibrium);
         CHECK(scenes::probe(s, "c", "u.y") == Approx(scenes::probe(exact, "c", "u.y")).epsilon(1e-5).margin(0));
       }
       CAPTURE(law, load);
       const std::vector<std::string> shared = {"phase.dilatation=cells"};
-      const Summary exact = run_scene(cantilever(2, "linear-elastic", load, ways[3]), shared);
-      const Summary s = run_scene(cantilever(2, law, load, ways[3]), shared);
+      const Summary exact = run_text(loaded_cantilever(2, "linear-elastic", load, tables_of_ways[3]), shared);
+      const Summary s = run_text(loaded_cantilever(2, law, load, tables_of_ways[3]), shared);
       REQUIRE(s.status == RunStatus::equilibrium);
       CHECK(scenes::probe(s, "c", "u.y") == Approx(scenes::probe(exact, "c", "u.y")).epsilon(1e-5).margin(0));
     }

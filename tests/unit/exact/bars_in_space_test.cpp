@@ -21,11 +21,12 @@ namespace {
 
 using Vector3 = std::array<double, 3>;
 using Stress6 = std::array<double, 6>;  // xx, yy, zz, xy, yz, zx
-constexpr double E = 2, nu = 0.3, mu = E / (2 * (1 + nu)), lambda = E * nu / ((1 + nu) * (1 - 2 * nu));
+constexpr double young = 2, poisson = 0.3, mu = young / (2 * (1 + poisson)),
+                 lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
 constexpr double a = 0.3, b = 0.2;  // halves of the sides along y and z
 
 /// Of a scene with that E and ν, and the solution with these keys.
-Scene scene(const std::string& solution, double half_depth = a, double half_width = b, double length = 1.2) {
+Scene bar_scene(const std::string& solution, double half_depth = a, double half_width = b, double length = 1.2) {
   const TemporaryFolder folder;
   const std::string exact = fmt::format("exact={{{}, depth={}, width={}, x0=0.1, y0=0.2, z0=-0.1}}", solution,
                                         2 * half_depth, 2 * half_width);
@@ -44,7 +45,7 @@ nu = {}
 rho = 1
 )",
                                                          0.2 - half_depth, -0.1 - half_width, 0.1 + length,
-                                                         0.2 + half_depth, -0.1 + half_width, E, nu)),
+                                                         0.2 + half_depth, -0.1 + half_width, young, poisson)),
                     {exact});
 }
 
@@ -125,7 +126,7 @@ double over_section(const std::function<double(double, double)>& f) {
 }  // namespace
 
 TEST_CASE("a twisted bar is in balance, obeys Hooke's law, and has no traction on its sides") {
-  const Bar bar(scene("solution='torsion', twist=0.5"));
+  const Bar bar(bar_scene("solution='torsion', twist=0.5"));
   const Faults faults = faults_of(bar);
   CHECK(faults.balance < 1e-7);
   CHECK(faults.law < 1e-9);
@@ -134,20 +135,20 @@ TEST_CASE("a twisted bar is in balance, obeys Hooke's law, and has no traction o
 
 TEST_CASE("a twisted bar bears the torque and the largest shear of Timoshenko and Goodier's table") {
   // art. 109: T = k_1 G α (2a)³ 2b of the shorter side 2a, τ_max = k G α 2a; of sides 1 : 1.5
-  const Bar bar(scene("solution='torsion', twist=0.5"));
+  const Bar bar(bar_scene("solution='torsion', twist=0.5"));
   const double torque = over_section([&](double y, double z) {
     const Stress6 sigma = bar.stress({0.4, y, z});
     return y * sigma[5] - z * sigma[3];
   });
   CHECK(torque == Approx(0.196 * mu * 0.5 * std::pow(2 * b, 3) * 2 * a).epsilon(0.003));
   CHECK(std::abs(bar.stress({0.4, 0, b})[3]) == Approx(0.848 * mu * 0.5 * 2 * b).epsilon(0.001));
-  const Bar square(scene("solution='torsion', twist=0.5", a, a));
+  const Bar square(bar_scene("solution='torsion', twist=0.5", a, a));
   CHECK(square.stress({0.4, a, 0})[5] == Approx(0.675314 * mu * 0.5 * 2 * a).epsilon(1e-6));
   CHECK(-square.stress({0.4, 0, a})[3] == Approx(0.675314 * mu * 0.5 * 2 * a).epsilon(1e-6));
 }
 
 TEST_CASE("a cantilever with a force at its end is in balance, obeys Hooke's law, and has no traction on its sides") {
-  const Bar bar(scene("solution='flexure', length=1.2, load=-0.7"));
+  const Bar bar(bar_scene("solution='flexure', length=1.2, load=-0.7"));
   const Faults faults = faults_of(bar);
   const double largest_stress = 0.7 * 1.2 * a / (4 * a * a * a * b / 3);
   CHECK(faults.balance < 1e-8 * largest_stress);
@@ -157,7 +158,7 @@ TEST_CASE("a cantilever with a force at its end is in balance, obeys Hooke's law
 
 TEST_CASE("a cantilever bears its load, and bends and shears as Timoshenko's beam with Cowper's coefficient") {
   constexpr double l = 1.2, W = -0.7;
-  const Bar bar(scene("solution='flexure', length=1.2, load=-0.7"));
+  const Bar bar(bar_scene("solution='flexure', length=1.2, load=-0.7"));
   CHECK(over_section([&](double y, double z) { return bar.stress({0.4, y, z})[3]; }) == Approx(W).epsilon(1e-4));
   CHECK(over_section([&](double y, double z) {
           return y * bar.stress({0.4, y, z})[0];
@@ -166,9 +167,9 @@ TEST_CASE("a cantilever bears its load, and bends and shears as Timoshenko's bea
   CHECK(std::abs(over_section([&](double y, double z) { return y * bar.u({0, y, z})[0]; })) < 1e-4 * scale);
 
   // [Cowper 1966]; W̄ is the mean deflection, to which ν (l − x)(y² − z²)/2 adds where the section is no square.
-  const double I = 4 * a * a * a * b / 3, G = mu, A = 4 * a * b, k = 10 * (1 + nu) / (12 + 11 * nu);
+  const double I = 4 * a * a * a * b / 3, G = mu, A = 4 * a * b, k = 10 * (1 + poisson) / (12 + 11 * poisson);
   const auto mean = [&](double x) { return over_section([&](double y, double z) { return bar.u({x, y, z})[1]; }) / A; };
-  CHECK(mean(l) - mean(0) == Approx(W * l * l * l / (3 * E * I) + W * l / (k * G * A)).epsilon(1e-4));
+  CHECK(mean(l) - mean(0) == Approx(W * l * l * l / (3 * young * I) + W * l / (k * G * A)).epsilon(1e-4));
 }
 
 TEST_CASE("a bar of another section or length than its body is refused at its key") {

@@ -25,13 +25,13 @@ const std::string of_lines =
     "$EndPhysicalNames\r\n$Nodes\r\n4\r\n1 0 0 0\r\n20 1 0 0\r\n30 1 1 0\r\n40 0 1 0\r\n$EndNodes\r\n"
     "$Elements\r\n3\r\n1 1 2 9 1 1 20\r\n2 2 2 7 1 1 30 40\r\n3 2 2 8 2 1 20 30\r\n$EndElements\r\n";
 
-struct Read {
+struct ReadMesh {
   Mesh mesh;
   std::vector<Mistake> problems;
 };
-Read read(const std::string& text, const std::string& group = "", int dim = 2) {
+ReadMesh read_mesh(const std::string& text, const std::string& group = "", int dim = 2) {
   const TemporaryFolder folder;
-  Read result;
+  ReadMesh result;
   result.mesh = read_gmsh_file(folder.write("a.msh", text), dim, group, result.problems);
   return result;
 }
@@ -40,7 +40,7 @@ Read read(const std::string& text, const std::string& group = "", int dim = 2) {
 
 TEST_CASE("both text formats of Gmsh's give the nodes, and the elements of a physical group") {
   for (const std::string& text : {of_blocks, of_lines}) {
-    const Mesh all = read(text).mesh, right = read(text, "right").mesh;
+    const Mesh all = read_mesh(text).mesh, right = read_mesh(text, "right").mesh;
     REQUIRE(all.elements.size() == 2);
     CHECK(all.nodes.at(30) == SpacePoint{1, 1, 0});
     CHECK(all.elements[0].kind == 2);
@@ -48,8 +48,8 @@ TEST_CASE("both text formats of Gmsh's give the nodes, and the elements of a phy
     REQUIRE(right.elements.size() == 1);
     CHECK(right.elements[0].nodes == std::vector<std::size_t>{1, 20, 30});
   }
-  CHECK(read(of_lines, "left part").mesh.elements.size() == 1);
-  CHECK(read(of_blocks, "left part").mesh.elements.size() == 2);  // of which one surface is in both groups
+  CHECK(read_mesh(of_lines, "left part").mesh.elements.size() == 1);
+  CHECK(read_mesh(of_blocks, "left part").mesh.elements.size() == 2);  // of which one surface is in both groups
 }
 
 TEST_CASE("what is wrong with a mesh is told once, with line and column if it is in the text") {
@@ -78,14 +78,14 @@ TEST_CASE("what is wrong with a mesh is told once, with line and column if it is
   };
   for (const Row& row : rows) {
     CAPTURE(row.message);
-    const Read result = read(row.text, row.group);
+    const ReadMesh result = read_mesh(row.text, row.group);
     CHECK(result.mesh.elements.empty());
     REQUIRE(result.problems.size() == 1);
     CHECK_THAT(result.problems[0].message, Catch::Contains(row.message));
     CHECK(result.problems[0].where.line == row.line);
     if (row.column > 0) CHECK(result.problems[0].where.column == row.column);
   }
-  CHECK_THAT(read(of_blocks, "", 3).problems.at(0).message, Catch::Contains("holds no elements of volumes"));
+  CHECK_THAT(read_mesh(of_blocks, "", 3).problems.at(0).message, Catch::Contains("holds no elements of volumes"));
   std::vector<Mistake> problems;
   CHECK(read_gmsh_file("/nowhere/a.msh", 2, "", problems).elements.empty());
   CHECK_THAT(problems.at(0).message, Catch::Contains("there is no such file"));

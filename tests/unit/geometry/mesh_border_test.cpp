@@ -9,10 +9,9 @@
 #include <catch2/catch.hpp>
 
 using namespace stillpoint;
+using std::numbers::pi;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 Mesh mesh_of(std::vector<SpacePoint> nodes, std::vector<MeshElement> elements) {
   Mesh mesh{{}, std::move(elements)};

@@ -15,10 +15,10 @@ using namespace stillpoint;
 using namespace stillpoint::test;
 using Catch::Matchers::Contains;
 using Eigen::Vector2d;
+using std::numbers::pi;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 const Polygon kL = {{-1, -1}, {1, -1}, {1, 0}, {0, 0}, {0, 1}, {-1, 1}};
 const std::vector<Vector2d> kConvexCornersOfL = {{-1, -1}, {1, -1}, {1, 0}, {0, 1}, {-1, 1}};
 // Straight corners on an oblique edge, off which rounding puts them, and a corner that is straight to 1e-8.

@@ -12,10 +12,9 @@
 using namespace stillpoint;
 using namespace stillpoint::test;
 using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
+using std::numbers::pi;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Ω by central differences of Q along θ(t) = theta + t dtheta_dt.
 template <int N>

@@ -14,10 +14,9 @@
 
 using namespace stillpoint;
 using namespace stillpoint::test;
+using std::numbers::pi;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// ∫ q dV over all cells of a box around the solid that is divided into n³.
 double integral(const Solid& solid, int n, int degree, const std::function<double(const SpacePoint&)>& q) {

@@ -16,19 +16,19 @@ using stillpoint::test::TemporaryFolder;
 
 namespace {
 
-struct Read {
+struct ReadSurface {
   std::vector<Facet> facets;
   std::vector<Mistake> problems;
 };
-Read read(const std::string& bytes) {
+ReadSurface read_surface(const std::string& bytes) {
   const TemporaryFolder folder;
-  Read result;
+  ReadSurface result;
   result.facets = read_stl_file(folder.write("body.stl", bytes), result.problems);
   return result;
 }
 /// "line:column message" of the only problem.
 std::string problem_of(const std::string& bytes) {
-  const Read result = read(bytes);
+  const ReadSurface result = read_surface(bytes);
   CHECK(result.facets.empty());
   REQUIRE(result.problems.size() == 1);
   const auto& [where, message, key] = result.problems[0];
@@ -46,7 +46,7 @@ const std::string ascii = ascii_stl(octahedron()), binary = binary_stl(octahedro
 
 TEST_CASE("both forms of an STL file have the same triangles, a binary one that is titled 'solid' too") {
   for (const std::string& bytes : {ascii, binary, with(binary, "     ", "solid")}) {
-    const Read result = read(bytes);
+    const ReadSurface result = read_surface(bytes);
     CHECK(result.problems.empty());
     CHECK(result.facets == octahedron());
   }
@@ -55,7 +55,7 @@ TEST_CASE("both forms of an STL file have the same triangles, a binary one that 
 TEST_CASE("a surface that is wound inside out is taken too") {
   std::vector<Facet> inside_out = octahedron();
   for (Facet& facet : inside_out) std::swap(facet[0], facet[1]);
-  const Read result = read(binary_stl(inside_out));
+  const ReadSurface result = read_surface(binary_stl(inside_out));
   CHECK(result.problems.empty());
   CHECK(TriangleSolid(result.facets).contains({0.1, 0.2, 0.3}));
 }

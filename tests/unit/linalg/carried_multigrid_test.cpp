@@ -52,7 +52,7 @@ Eigen::MatrixXd matrix_of(const Multigrid& cycle, std::size_t n) {
   return B;
 }
 
-SparseMatrix diagonal(const std::vector<double>& values) {
+SparseMatrix diagonal_stiffness(const std::vector<double>& values) {
   const auto n = static_cast<Eigen::Index>(values.size());
   SparseMatrix K(n, n);
   for (Eigen::Index k = 0; k < n; ++k) K.insert(k, k) = values[static_cast<std::size_t>(k)];
@@ -64,12 +64,12 @@ SparseMatrix diagonal(const std::vector<double>& values) {
 
 TEST_CASE("a cycle carried to the same unknowns is the cycle, to the bit") {
   const auto B = std::make_shared<Full>(full());
-  const auto carried = carry(B, before, before, diagonal({1, 1, 1, 1, 1}));
+  const auto carried = carry(B, before, before, diagonal_stiffness({1, 1, 1, 1, 1}));
   CHECK(matrix_of(*carried, 5) == full());
 }
 
 TEST_CASE("a carried cycle has what old unknowns answer to each other, and new ones divide by their stiffness") {
-  const auto carried = carry(std::make_shared<Full>(full()), before, after, diagonal({7, 7, 4, 8, 7, 7}));
+  const auto carried = carry(std::make_shared<Full>(full()), before, after, diagonal_stiffness({7, 7, 4, 8, 7, 7}));
   Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(6, 6);
   const std::vector<int> old = {1, 2, -1, -1, 3, 4};  // of each new unknown
   for (int i = 0; i < 6; ++i) {

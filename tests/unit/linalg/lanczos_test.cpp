@@ -15,7 +15,7 @@ using namespace stillpoint;
 namespace {
 
 // A of the eigenvalues lambda.
-LinearMap diagonal(const std::vector<double>& lambda) {
+LinearMap diagonal_map(const std::vector<double>& lambda) {
   return [&lambda](ConstVec x, Vec y) {
     for (std::size_t i = 0; i < x.size(); ++i) y[i] = lambda[i] * x[i];
   };
@@ -38,9 +38,9 @@ TEST_CASE("what Lanczos' method has not seen of its start is what conjugate grad
   double norm_of_b = 0;
   for (const double value : b) norm_of_b += value * value;
   norm_of_b = std::sqrt(norm_of_b);
-  Lanczos lanczos = begun(diagonal(lambda), identity, n);
+  Lanczos lanczos = begun(diagonal_map(lambda), identity, n);
   int compared = 0;
-  conjugate_gradients(diagonal(lambda), identity, b, x, 1e-2, 100, [&](double left) {
+  conjugate_gradients(diagonal_map(lambda), identity, b, x, 1e-2, 100, [&](double left) {
     REQUIRE(lanczos.step());
     CHECK(lanczos.residual() == Approx(left / norm_of_b).epsilon(1e-6));
     ++compared;
@@ -52,7 +52,7 @@ TEST_CASE("Lanczos' method finds no rest where A is not positive definite") {
   std::vector<double> lambda(20, 1.0);
   for (std::size_t i = 0; i < lambda.size(); ++i) lambda[i] = static_cast<double>(i) - 3;
   const LinearMap identity = [](ConstVec r, Vec z) { std::copy(r.begin(), r.end(), z.begin()); };
-  Lanczos indefinite = begun(diagonal(lambda), identity, lambda.size());
+  Lanczos indefinite = begun(diagonal_map(lambda), identity, lambda.size());
   for (int step = 0; step < 15 && indefinite.step(); ++step) {
   }
   CHECK(indefinite.residual() == std::numeric_limits<double>::infinity());

@@ -11,10 +11,13 @@
 #include <catch2/catch.hpp>
 
 #include "factor_allocations.hpp"
+#include "sparse_solutions.hpp"
 
 using stillpoint::SparseCholesky;
 using stillpoint::SparseMatrix;
 using stillpoint::test::FactorAllocations;
+using stillpoint::test::ramp;
+using stillpoint::test::residual;
 
 namespace {
 
@@ -39,17 +42,6 @@ SparseMatrix diagonal(const std::vector<double>& values) {
   SparseMatrix A(n, n);
   for (Eigen::Index i = 0; i < n; ++i) A.insert(i, i) = values[static_cast<std::size_t>(i)];
   return A;
-}
-
-std::vector<double> ramp(std::size_t n) {
-  std::vector<double> b(n);
-  for (std::size_t i = 0; i < n; ++i) b[i] = 1 + static_cast<double>(i % 7);
-  return b;
-}
-
-double residual(const SparseMatrix& A, const std::vector<double>& x, const std::vector<double>& b) {
-  const Eigen::Map<const Eigen::VectorXd> X(x.data(), A.rows()), B(b.data(), A.rows());
-  return (A * X - B).norm() / B.norm();
 }
 
 }  // namespace

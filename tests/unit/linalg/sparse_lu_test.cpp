@@ -12,27 +12,19 @@
 #include "convection.hpp"
 #include "factor_allocations.hpp"
 #include "linalg/sparse_cholesky.hpp"
+#include "sparse_solutions.hpp"
 
 using stillpoint::SparseCholesky;
 using stillpoint::SparseLu;
 using stillpoint::SparseMatrix;
 using stillpoint::test::convection;
 using stillpoint::test::FactorAllocations;
+using stillpoint::test::ramp;
+using stillpoint::test::residual;
 
 namespace {
 
 SparseMatrix dense(const Eigen::MatrixXd& A) { return A.sparseView(); }
-
-std::vector<double> ramp(std::size_t n) {
-  std::vector<double> b(n);
-  for (std::size_t i = 0; i < n; ++i) b[i] = 1 + static_cast<double>(i % 7);
-  return b;
-}
-
-double residual(const SparseMatrix& A, const std::vector<double>& x, const std::vector<double>& b) {
-  const Eigen::Map<const Eigen::VectorXd> X(x.data(), A.rows()), B(b.data(), A.rows());
-  return (A * X - B).norm() / B.norm();
-}
 
 }  // namespace
 

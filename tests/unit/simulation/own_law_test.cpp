@@ -48,7 +48,7 @@ void add_again() {
   add_law<Again, uniaxial_stress, uniaxial_strain, plane_strain, plane_stress, axisymmetric, space>(named("again"));
 }
 
-std::vector<double> after(int steps, const std::string& scene, std::vector<std::string> overrides) {
+std::vector<double> fields_after(int steps, const std::string& scene, std::vector<std::string> overrides) {
   overrides.insert(overrides.end(), {"stop.distance=0"});
   Simulation simulation(load_scene(STILLPOINT_PROBLEMS "/" + scene, overrides), {.threads = 1, .stops = false});
   for (int k = 0; k < steps; ++k) simulation.step();
@@ -66,7 +66,7 @@ double difference(int steps, const std::string& scene, const std::string& law_ke
   const auto with = [&](const char* law) {
     std::vector<std::string> all = overrides;
     all.push_back(law_key + "=" + law);
-    return after(steps, scene, all);
+    return fields_after(steps, scene, all);
   };
   const std::vector<double> built_in = with("neo-hookean"), own = with("again");
   REQUIRE(own.size() == built_in.size());

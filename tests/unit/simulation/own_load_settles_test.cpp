@@ -14,7 +14,7 @@ using namespace stillpoint;
 
 namespace {
 
-const std::string column = STILLPOINT_PROBLEMS "/column.toml";
+const std::string column_file = STILLPOINT_PROBLEMS "/column.toml";
 
 void add(const std::string& name, double settles_at, double (*g)(double)) {
   add_load({.name = name, .settles_at = settles_at}, [g](double t, int dim, ConstVec x, Vec b) {
@@ -29,7 +29,7 @@ std::string refusal(const std::string& load, const std::vector<std::string>& mor
   std::vector<std::string> overrides = {"body_force={own=\"" + load + "\"}"};
   overrides.insert(overrides.end(), more.begin(), more.end());
   try {
-    const Simulation simulation(load_scene(column, overrides), {.threads = 1});
+    const Simulation simulation(load_scene(column_file, overrides), {.threads = 1});
   } catch (const SceneError& error) {
     return error.what();
   }
@@ -67,7 +67,7 @@ TEST_CASE("a load that was changed from outside on the way is no equilibrium") {
   static double weight = 10;
   weight = 10;
   add("changed", 0, [](double) { return weight; });
-  Simulation simulation(load_scene(column, {"body_force={own=\"changed\"}", "solve.method=relaxation"}),
+  Simulation simulation(load_scene(column_file, {"body_force={own=\"changed\"}", "solve.method=relaxation"}),
                         {.threads = 1});
   weight = 11;
   CHECK(simulation.run() == RunStatus::failed);

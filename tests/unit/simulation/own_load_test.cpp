@@ -15,7 +15,7 @@ using namespace stillpoint;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-const std::string column = STILLPOINT_PROBLEMS "/column.toml";  // under its own weight in the plane
+const std::string heavy_column = STILLPOINT_PROBLEMS "/column.toml";  // under its own weight in the plane
 
 // b = (0, −g(t) (1 + y))
 void add_weight(const std::string& name, double settles_at, double (*g)(double)) {
@@ -27,8 +27,8 @@ void add_weight(const std::string& name, double settles_at, double (*g)(double))
   });
 }
 
-std::vector<double> after(int steps, const std::vector<std::string>& overrides) {
-  Simulation simulation(load_scene(column, overrides), {.threads = 1, .stops = false});
+std::vector<double> column_after(int steps, const std::vector<std::string>& overrides) {
+  Simulation simulation(load_scene(heavy_column, overrides), {.threads = 1, .stops = false});
   for (int k = 0; k < steps; ++k) simulation.step();
   const ConstVec u = simulation.u();
   return {u.begin(), u.end()};
@@ -38,17 +38,17 @@ std::vector<double> after(int steps, const std::vector<std::string>& overrides) 
 
 TEST_CASE("a load that a program adds is the body force of the same formula, bit for bit, constant or not") {
   add_weight("steady", 0, [](double) { return 10.0; });
-  CHECK(after(40, {"body_force.own=steady", "body_force.value=[0,0]"}) ==
-        after(40, {"body_force.value=[0,\"-10*(1+y)\"]"}));
+  CHECK(column_after(40, {"body_force.own=steady", "body_force.value=[0,0]"}) ==
+        column_after(40, {"body_force.value=[0,\"-10*(1+y)\"]"}));
   add_weight("swinging", infinity, [](double t) { return 10 * std::cos(t); });
-  CHECK(after(40, {"body_force.own=swinging", "body_force.value=[0,0]"}) ==
-        after(40, {"body_force.value=[0,\"-10*cos(t)*(1+y)\"]"}));
+  CHECK(column_after(40, {"body_force.own=swinging", "body_force.value=[0,0]"}) ==
+        column_after(40, {"body_force.value=[0,\"-10*cos(t)*(1+y)\"]"}));
 }
 
 TEST_CASE("Newton's method balances a load that a program adds, and its supports bear it") {
   add_weight("steady", 0, [](double) { return 10.0; });
   const auto at_rest = [](const std::string& load) {
-    Simulation simulation(load_scene(column, {load, "solve.method=newton", "support[0].name=base"}));
+    Simulation simulation(load_scene(heavy_column, {load, "solve.method=newton", "support[0].name=base"}));
     CHECK(simulation.run() == RunStatus::equilibrium);
     return simulation.summary();
   };
@@ -62,7 +62,7 @@ TEST_CASE("Newton's method balances a load that a program adds, and its supports
 
 TEST_CASE("no equilibrium is found before a load that a program adds has settled") {
   add_weight("pause", 5, [](double t) { return t < 5 ? 5.0 : 10.0; });  // at rest under half of it long before
-  Simulation simulation(load_scene(column, {"body_force={own=\"pause\"}", "stop.time=50", "output.every=1"}),
+  Simulation simulation(load_scene(heavy_column, {"body_force={own=\"pause\"}", "stop.time=50", "output.every=1"}),
                         {.threads = 1});
   CHECK(simulation.run() == RunStatus::equilibrium);
   CHECK(simulation.t() > 5);
@@ -73,7 +73,7 @@ TEST_CASE("a load that is no number ends a run with its name, the time and the p
     for (double& component : b) component = 1;
     if (t > 0.1) b[2 * 3 + 1] = std::numeric_limits<double>::quiet_NaN();
   });
-  Simulation simulation(load_scene(column, {"body_force={own=\"hole\"}", "stop.time=50"}), {.threads = 1});
+  Simulation simulation(load_scene(heavy_column, {"body_force={own=\"hole\"}", "stop.time=50"}), {.threads = 1});
   CHECK(simulation.run() == RunStatus::diverged);
   INFO(simulation.reason());
   CHECK(simulation.reason().find("body_force.own is not a number at t = ") != std::string::npos);
@@ -86,7 +86,7 @@ TEST_CASE(
   add_weight("swinging", infinity, [](double t) { return 10 * std::cos(t); });
   const auto refusal = [](const std::vector<std::string>& overrides) -> std::string {
     try {
-      load_scene(column, overrides);
+      load_scene(heavy_column, overrides);
     } catch (const SceneError& error) {
       return error.what();
     }

@@ -16,7 +16,7 @@ using namespace stillpoint;
 
 namespace {
 
-const std::string bar = STILLPOINT_PROBLEMS "/bar.toml";
+const std::string bar_file = STILLPOINT_PROBLEMS "/bar.toml";
 
 void cundall(double alpha, ConstVec v, ConstVec Q, Vec D) {
   for (std::size_t i = 0; i < v.size(); ++i) D[i] = -alpha * std::abs(Q[i]) * (v[i] > 0 ? 1.0 : v[i] < 0 ? -1.0 : 0.0);
@@ -32,8 +32,8 @@ struct Descent : OwnRelaxation {
   }
 };
 
-std::vector<double> after(int steps, const std::vector<std::string>& overrides) {
-  Simulation simulation(load_scene(bar, overrides), {.threads = 1});
+std::vector<double> bar_after(int steps, const std::vector<std::string>& overrides) {
+  Simulation simulation(load_scene(bar_file, overrides), {.threads = 1});
   for (int k = 0; k < steps; ++k) simulation.step();
   const ConstVec u = simulation.u();
   return {u.begin(), u.end()};
@@ -44,7 +44,7 @@ std::vector<double> after(int steps, const std::vector<std::string>& overrides) 
 TEST_CASE("a damping that a program adds takes the steps of the built-in one with the same formula, bit for bit") {
   add_damping({.name = "own-cundall", .equation = "as cundall", .stiffness_factor = 1.7}, cundall);
   const auto of = [](const std::string& name) {
-    return after(100, {"damping.strategy=" + name, "damping.alpha=0.7", "mass.kind=lumped"});
+    return bar_after(100, {"damping.strategy=" + name, "damping.alpha=0.7", "mass.kind=lumped"});
   };
   CHECK(of("own-cundall") == of("cundall"));
   REQUIRE(catalogue().strategy("own-cundall"));
@@ -58,9 +58,9 @@ TEST_CASE("a relaxation that a program adds is made anew for each simulation, an
     return std::make_unique<Descent>();
   });
   const std::vector<std::string> overrides = {"damping.strategy=own-descent"};
-  CHECK(after(1, overrides) != after(2, overrides));
+  CHECK(bar_after(1, overrides) != bar_after(2, overrides));
   CHECK(made == 2);
-  Simulation simulation(load_scene(bar, overrides), {.threads = 1});
+  Simulation simulation(load_scene(bar_file, overrides), {.threads = 1});
   simulation.step();
   CHECK(simulation.evaluations() == 2);
   const double first = simulation.residual();
@@ -91,7 +91,7 @@ TEST_CASE("a stopping test of a program's own ends the simulation with its reaso
   SimulationOptions options{.threads = 1};
   int asked = 0;
   options.stop_test = [&asked] { return ++asked < 7 ? std::string() : "seven steps"; };
-  Simulation simulation(load_scene(bar), options);
+  Simulation simulation(load_scene(bar_file), options);
   CHECK(simulation.run() == RunStatus::stop_test);
   CHECK(simulation.reason() == "seven steps");
   CHECK(simulation.steps() == 7);
@@ -124,7 +124,7 @@ TEST_CASE("the rows of the history are told without files") {
     times.push_back(row.front());
     CHECK(row.size() == columns.size());
   };
-  Simulation simulation(load_scene(bar), options);
+  Simulation simulation(load_scene(bar_file), options);
   simulation.run();
   CHECK(names.front() == "t");
   CHECK(names.at(5) == "p6.u");

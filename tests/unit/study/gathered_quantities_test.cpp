@@ -20,7 +20,7 @@ using Values = std::vector<double>;
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 const Values sizes = {1, 0.5, 0.25, 0.125};
 
 /// A study of four levels; fill(run, h) says what was read at the end of each.
@@ -67,7 +67,7 @@ TEST_CASE("norms against an exact solution keep their values, with the order tha
 
 TEST_CASE("where points stay the same the finest level is the reference, and orders are those of changes") {
   const ConvergenceStudy study = gathered(scenes::load("column"), Refinement::step, [](LevelRun& run, double h) {
-    run.u = {3 + 4e-3 * h * h, 0, none, 4};  // two components at two points
+    run.u = {3 + 4e-3 * h * h, 0, no_value, 4};  // two components at two points
     run.volume = {1, 2};
     run.norms = {{"u_l2", 7}};  // the error of space, which all levels share
   });
@@ -86,7 +86,7 @@ TEST_CASE("where points stay the same the finest level is the reference, and ord
 TEST_CASE("a probe whose value nobody knows is extrapolated to its limit, and its errors are against that") {
   const ConvergenceStudy study = gathered(scenes::load("column"), Refinement::points, [](LevelRun& run, double h) {
     run.probes = {{"top.u.y", -5 + 0.3 * h * h}};
-    run.probe_errors = {none};
+    run.probe_errors = {no_value};
     run.u = {1}, run.volume = {1};
   });
   const StudiedQuantity& probe = quantity(study, "top.u.y");

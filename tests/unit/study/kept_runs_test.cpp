@@ -22,23 +22,23 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-const std::vector<std::string> set = {"grid.cells=[8]"};
+constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
+const std::vector<std::string> eight_cells = {"grid.cells=[8]"};
 
 LevelRun finished_run() {
   LevelRun run;
   run.is_there = true;
-  run.level.set = set;
+  run.level.set = eight_cells;
   run.level.step = 0.1, run.level.wall_s = 1e-3;
   run.level.points = 12, run.level.dofs = 7, run.level.evaluations = 1L << 40;
   run.level.status = RunStatus::equilibrium;
   run.level.reason = "a reason with \"quotes\"";
   run.floor = 1e-13;
-  run.norms = {{"u_l2", 1.0 / 3}, {"u_max", none}};
+  run.norms = {{"u_l2", 1.0 / 3}, {"u_max", not_there}};
   run.no_energy = "why not";
   run.probes = {{"tip.u", std::nextafter(1.0, 2.0)}};
-  run.probe_errors = {none};
-  run.u = {0.1, none, -5e-324, 1.7e308};
+  run.probe_errors = {not_there};
+  run.u = {0.1, not_there, -5e-324, 1.7e308};
   run.stress = {-0.0};
   run.volume = {0.7};
   run.notes = {"a note"};
@@ -68,10 +68,10 @@ TEST_CASE("a run that is kept is found again to the last bit, also what is not a
   const KeptRuns kept(folder.path(), true, scenes::bar());
   const LevelRun run = finished_run();
   kept.keep("level", run);
-  const std::optional<LevelRun> found = kept.find("level", set);
+  const std::optional<LevelRun> found = kept.find("level", eight_cells);
   REQUIRE(found);
   CHECK(found->is_there);
-  CHECK(found->level.set == set);
+  CHECK(found->level.set == eight_cells);
   CHECK(found->level.status == RunStatus::equilibrium);
   CHECK(found->level.exit_status == 0);
   CHECK(found->level.reason == run.level.reason);
@@ -100,21 +100,21 @@ TEST_CASE("nothing is kept of a run that did not come to its end, or without a f
   LevelRun run = finished_run();
   run.is_there = false;
   kept.keep("level", run);
-  CHECK_FALSE(kept.find("level", set));
+  CHECK_FALSE(kept.find("level", eight_cells));
   CHECK(std::filesystem::is_empty(folder.path()));
   CHECK_NOTHROW(KeptRuns({}, true, scenes::bar()).keep("level", finished_run()));
-  CHECK_FALSE(KeptRuns({}, true, scenes::bar()).find("level", set));
+  CHECK_FALSE(KeptRuns({}, true, scenes::bar()).find("level", eight_cells));
 }
 
 TEST_CASE("a study that begins afresh takes no kept run, and removes that of each level which it begins") {
   const TemporaryFolder folder;
   const KeptRuns resumed(folder.path(), true, scenes::bar()), afresh(folder.path(), false, scenes::bar());
   resumed.keep("level", finished_run());
-  CHECK_FALSE(afresh.find("level", set));
+  CHECK_FALSE(afresh.find("level", eight_cells));
   resumed.begin("level");
-  CHECK(resumed.find("level", set));
+  CHECK(resumed.find("level", eight_cells));
   afresh.begin("level");
-  CHECK_FALSE(resumed.find("level", set));
+  CHECK_FALSE(resumed.find("level", eight_cells));
 }
 
 TEST_CASE("a kept run of another scene, version or refinement is refused with what differs, and a damaged one too") {
@@ -125,16 +125,16 @@ TEST_CASE("a kept run of another scene, version or refinement is refused with wh
   CHECK_THROWS_WITH(kept.find("level", {"grid.cells=[16]"}), Contains("is a run that was refined in another way"));
   Scene other = scene;
   other.text += "\n";
-  CHECK_THROWS_WITH(KeptRuns(folder.path(), true, other).find("level", set), Contains("another scene text"));
-  CHECK_THROWS_WITH(KeptRuns(folder.path(), true, scenes::bar({"stop.time=1"})).find("level", set),
+  CHECK_THROWS_WITH(KeptRuns(folder.path(), true, other).find("level", eight_cells), Contains("another scene text"));
+  CHECK_THROWS_WITH(KeptRuns(folder.path(), true, scenes::bar({"stop.time=1"})).find("level", eight_cells),
                     Contains("another list of --set") && Contains("leave out --resume to begin afresh"));
   std::string text = contents(folder.path() / "level.json");
   folder.write("other.json", text.replace(text.find("\"version\":\""), 11, "\"version\":\"0"));
-  CHECK_THROWS_WITH(kept.find("other", set), Contains("another version"));
+  CHECK_THROWS_WITH(kept.find("other", eight_cells), Contains("another version"));
   for (const std::string damaged : {"", "{}", "[1", "{\"of\": 3}"}) {
     CAPTURE(damaged);
     folder.write("damaged.json", damaged);
-    CHECK_THROWS_AS(kept.find("damaged", set), StateError);
-    CHECK_THROWS_WITH(kept.find("damaged", set), Contains("is damaged, or no run of a study"));
+    CHECK_THROWS_AS(kept.find("damaged", eight_cells), StateError);
+    CHECK_THROWS_WITH(kept.find("damaged", eight_cells), Contains("is damaged, or no run of a study"));
   }
 }

@@ -18,7 +18,7 @@ using namespace stillpoint::test;
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_figure = std::numeric_limits<double>::quiet_NaN();
 
 /// Two levels, the second of which failed.
 ConvergenceStudy study_of(const std::string& basis) {
@@ -31,7 +31,7 @@ ConvergenceStudy study_of(const std::string& basis) {
   study.levels[0].size = study.levels[0].h = 1.0 / 3;
   study.levels[1].status = RunStatus::failed;
   study.levels[1].reason = "out of \"memory\"";
-  study.quantities = {{.name = "u_l2", .values = {0.1, none}, .errors = {0.1, none}}};
+  study.quantities = {{.name = "u_l2", .values = {0.1, no_figure}, .errors = {0.1, no_figure}}};
   study.quantities[0].order = ObservedOrder{.order = 2, .last = 1};
   study.quantities[0].theory = 2;
   return study;
@@ -48,7 +48,7 @@ TEST_CASE("text in a field of a CSV file is quoted, and the quotes in it doubled
 TEST_CASE("converge.csv has a row a level of each series, with the varied values before it and no field for a NaN") {
   const TemporaryFolder folder;
   ConvergenceStudy cubic = study_of("cubic");
-  cubic.quantities.push_back({.name = "tip.u", .values = {5, 6}, .errors = {none, none}});
+  cubic.quantities.push_back({.name = "tip.u", .values = {5, 6}, .errors = {no_figure, no_figure}});
   write_studies({study_of("linear"), cubic}, folder.path());
   const std::vector<std::string> csv = lines(folder.path() / "converge.csv");
   REQUIRE(csv.size() == 5);
@@ -76,7 +76,7 @@ TEST_CASE("converge.json has null for what is no number, orders with their level
   CHECK(one["dominant"].is_null());
   ConvergenceStudy alone = study_of("linear");
   alone.varied.clear();
-  alone.sources = {{"space", 0.5}, {"time", none}};
+  alone.sources = {{"space", 0.5}, {"time", no_figure}};
   write_study(alone, folder.path());
   const Json study = json_of(folder.path() / "converge.json");
   CHECK_FALSE(study.contains("series"));
@@ -96,7 +96,7 @@ TEST_CASE("compare.csv and compare.json have each figure of a row, and none for 
   first.wall_s = Spread{.median = 2, .least = 1, .most = 3};
   first.setup_s = 0.5;
   first.error = 1.0 / 3;
-  first.samples = {{.evaluations = 1, .error = 1, .residual = none, .distance = {}}};
+  first.samples = {{.evaluations = 1, .error = 1, .residual = no_figure, .distance = {}}};
   comparison.runs[1].strategy = "newton";
   comparison.runs[1].reason = "because, \"so\"";
   write_comparison(comparison, folder.path());

@@ -15,7 +15,7 @@ using Catch::Contains;
 
 namespace {
 
-constexpr double cell = 0.25, way = 0.1;
+constexpr double chatter_cell = 0.25, chatter_way = 0.1;
 
 /// The number of the phase after which a body that stays is said to chatter, of 5000; 0: never.
 template <class Residual>
@@ -23,7 +23,7 @@ int chatters_after(const Residual& residual_after) {
   const auto phase = make_phase(stillpoint::test::free_block());
   Chatter chatter;
   for (int k = 1; k <= 5000; ++k) {
-    if (chatter.take(*phase, way, residual_after(k), cell)) return k;
+    if (chatter.take(*phase, chatter_way, residual_after(k), chatter_cell)) return k;
   }
   return 0;
 }
@@ -46,15 +46,15 @@ TEST_CASE("a body does not chatter while its points move on") {
   Chatter chatter;
   for (int k = 0; k < 200; ++k) {  // 1.6 cells, on a way of 120
     REQUIRE(simulation.run_until(0.002 * (k + 1)) == RunStatus::running);
-    CHECK_FALSE(chatter.take(simulation.parts().phase, 0.6, 1, cell));
+    CHECK_FALSE(chatter.take(simulation.parts().phase, 0.6, 1, chatter_cell));
   }
 }
 
 TEST_CASE("what chatters is said with its way, its residuals and what to change") {
   const auto phase = make_phase(stillpoint::test::free_block());
   Chatter chatter;
-  CHECK_FALSE(chatter.take(*phase, 200, 2e-6, cell));
-  const auto said = chatter.take(*phase, 200, 3e-6, cell);
+  CHECK_FALSE(chatter.take(*phase, 200, 2e-6, chatter_cell));
+  const auto said = chatter.take(*phase, 200, 3e-6, chatter_cell);
   REQUIRE(said);
   CHECK_THAT(*said, Contains("200 cells") && Contains("residual 3e-06 after 2e-06") && Contains("phase.max_motion"));
 }

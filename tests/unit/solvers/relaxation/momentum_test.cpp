@@ -20,7 +20,7 @@ using stillpoint::test::stepper_of;
 
 namespace {
 
-struct Way {
+struct NamedWay {
   const char *strategy, *method;
 };
 
@@ -30,7 +30,7 @@ Chain uneven_chain(bool consistent) {
 }
 
 // After so many steps from rest: u, and v or p.
-std::vector<double> state_after(const Way& way, Chain& chain, const Mass* fictitious, double h, double omega_1,
+std::vector<double> state_after(const NamedWay& way, Chain& chain, const Mass* fictitious, double h, double omega_1,
                                 int steps) {
   const auto damping = damping_of(way.strategy, 2 * omega_1, 0.1);
   const VectorSpace vectors;
@@ -50,10 +50,11 @@ std::vector<double> state_after(const Way& way, Chain& chain, const Mass* fictit
 }  // namespace
 
 TEST_CASE("a mass that is known by its inverse alone moves a body as the same mass with its product does") {
-  const auto way = GENERATE(Way{"viscous", "leapfrog"}, Way{"viscous", "symplectic-euler"}, Way{"viscous", "erk:rk4"},
-                            Way{"viscous", "erk:heun-euler-2-1-2"}, Way{"viscous", "gsl:rk4"},
-                            Way{"kinetic", "leapfrog"}, Way{"kinetic", "erk:rk4"}, Way{"adaptive", "leapfrog"},
-                            Way{"papadrakakis", "leapfrog"}, Way{"chebyshev", "leapfrog"}, Way{"auto", "leapfrog"});
+  const auto way =
+      GENERATE(NamedWay{"viscous", "leapfrog"}, NamedWay{"viscous", "symplectic-euler"}, NamedWay{"viscous", "erk:rk4"},
+               NamedWay{"viscous", "erk:heun-euler-2-1-2"}, NamedWay{"viscous", "gsl:rk4"},
+               NamedWay{"kinetic", "leapfrog"}, NamedWay{"kinetic", "erk:rk4"}, NamedWay{"adaptive", "leapfrog"},
+               NamedWay{"papadrakakis", "leapfrog"}, NamedWay{"chebyshev", "leapfrog"}, NamedWay{"auto", "leapfrog"});
   if (is_missing(way.method)) return;
   const bool consistent = GENERATE(false, true);
   CAPTURE(way.strategy, way.method, consistent);
@@ -73,9 +74,9 @@ TEST_CASE("a mass that is known by its inverse alone moves a body as the same ma
 }
 
 TEST_CASE("a step takes M⁻¹ once and knows its velocity and acceleration: energy and error bound take no further M⁻¹") {
-  const auto [strategy, method] =
-      GENERATE(Way{"auto", "leapfrog"}, Way{"kinetic", "leapfrog"}, Way{"papadrakakis", "leapfrog"},
-               Way{"chebyshev", "leapfrog"}, Way{"viscous", "leapfrog"}, Way{"viscous", "symplectic-euler"});
+  const auto [strategy, method] = GENERATE(NamedWay{"auto", "leapfrog"}, NamedWay{"kinetic", "leapfrog"},
+                                           NamedWay{"papadrakakis", "leapfrog"}, NamedWay{"chebyshev", "leapfrog"},
+                                           NamedWay{"viscous", "leapfrog"}, NamedWay{"viscous", "symplectic-euler"});
   CAPTURE(strategy, method);
   Chain chain = uneven_chain(false);
   const Mass& M = chain.mass();

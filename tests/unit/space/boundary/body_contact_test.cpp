@@ -46,8 +46,6 @@ Scene stack(const Stack& of) {
                     {});
 }
 
-const std::vector<std::string> kinds = {"plane-strain", "axisymmetric", "space"};
-
 /// The unknowns of one body, in a scene with two fields: the base is in the first.
 std::vector<double> part(const std::vector<double>& of_both, std::size_t begin, std::size_t count) {
   const auto first = of_both.begin() + static_cast<std::ptrdiff_t>(begin);
@@ -63,7 +61,7 @@ Problem without(Scene scene, const std::string& body) {
 }  // namespace
 
 TEST_CASE("bodies with a contact that are apart by a tenth of a cell move as if each were alone, to the bit") {
-  for (const std::string& kind : kinds) {
+  for (const std::string& kind : contact_states) {
     CAPTURE(kind);
     const Scene scene = stack({.kind = kind, .gap = 0.05});
     const auto both = make_phase(scene), base = make_phase(without(scene, "block")),
@@ -82,7 +80,7 @@ TEST_CASE("bodies with a contact that are apart by a tenth of a cell move as if 
 }
 
 TEST_CASE("the tangent of contact between bodies is the derivative of its force, and symmetric without friction") {
-  for (const std::string& kind : kinds) {
+  for (const std::string& kind : contact_states) {
     for (const char* friction : {"0", "0.3", "'rough'"}) {
       CAPTURE(kind, friction);
       const auto phase = make_phase(stack({.kind = kind, .gap = -0.02, .friction = friction}));

@@ -29,16 +29,16 @@ std::vector<std::string> triangle(std::vector<std::string> overrides) {
   return overrides;
 }
 
-struct Resultant {
+struct TractionResultant {
   double x = 0, y = 0, moment = 0;  // about the origin
 };
 
 /// Of F(0) over all functions of a free body, about the origin: Σ N_a ξ_a = x with the centres ξ_a of splines.
-Resultant resultant(const Scene& scene) {
+TractionResultant resultant(const Scene& scene) {
   const auto phase = make_phase(scene);
   std::vector<double> F(phase->size());
   phase->external_force(0, std::vector<double>(phase->size(), 0.0), F);
-  Resultant sum;
+  TractionResultant sum;
   for (std::size_t i = 0; i < F.size(); i += 2) {
     if (F[i] == 0 && F[i + 1] == 0) continue;
     const std::vector<double> x = phase->diagnosis().of_unknown(i).position;
@@ -62,7 +62,7 @@ TEST_CASE("a traction on an oblique side of a polygon adds up to stress times ar
       for (const bool pressure : {false, true}) {
         CAPTURE(basis, line, pressure);
         const std::string load = pressure ? "pressure=0.5" : "value=[0.3, -0.2]";
-        const Resultant F = resultant(
+        const TractionResultant F = resultant(
             scenes::load("block", triangle({"grid.basis=" + basis, "body.points_per_cell=9", "body.volumes=equal",
                                             "traction=[{line=" + line + ", " + load + "}]"})));
         const bool whole = line[2] != '2';
@@ -86,7 +86,7 @@ TEST_CASE("a traction that is a cubic of the position has its force and its mome
     for (const std::string phases : {"phase={}", "phase.max_motion=0.1"}) {
       for (const std::string points : {"4", "9", "[3, 2]"}) {
         CAPTURE(basis, phases, points);
-        const Resultant F = resultant(scenes::load(
+        const TractionResultant F = resultant(scenes::load(
             "block", triangle({"grid.basis=" + basis, phases, "body.points_per_cell=" + points,
                                "traction=[{line=[[4, 0], [0, 3]], value=['x^3 - 2*x*y^2 + 3', 'y^3 + x^2*y']}]"})));
         CHECK(F.x == Approx(f_x).epsilon(1e-12));
@@ -104,7 +104,7 @@ TEST_CASE("a pressure that is a cubic of the position pushes a face with all of 
          {"phase={}", "phase={max_motion=0.1, quadrature='points'}", "phase={max_motion=0.1, quadrature='domains'}"}) {
       for (const std::string points : {"4", "9", "16"}) {
         CAPTURE(basis, phases, points);
-        const Resultant F =
+        const TractionResultant F =
             resultant(scenes::load("block", in_room({"grid.basis=" + basis, phases, "body.points_per_cell=" + points,
                                                      "traction=[{face='top', pressure='x^3 - x'}]"})));
         CHECK(std::abs(F.x) < 1e-14);
@@ -120,7 +120,7 @@ TEST_CASE("a traction on a face around an axis is weighed with the radius there"
   const double force = 2 * std::numbers::pi * (std::pow(1.5, 5) - std::pow(0.5, 5)) / 5;
   for (const std::string phases : {"phase={}", "phase.max_motion=0.1"}) {
     CAPTURE(phases);
-    const Resultant F = resultant(
+    const TractionResultant F = resultant(
         scenes::load("block", {"grid={min=[0, 0], max=[2, 2], cells=[8, 8]}", "body.min=[0.5, 0.5]",
                                "body.max=[1.5, 1.5]", "body.state=axisymmetric", "body.points_per_cell=9", "support=[]",
                                "probe=[]", "damping.c=1.0", phases, "traction=[{face='top', value=[0, 'x^3']}]"}));
@@ -199,7 +199,7 @@ TEST_CASE("a line along a whole face loads it as the face does, to the last bit,
 }
 
 TEST_CASE("in phases a line is carried with all of its force and moment, on polygons and on one of several bodies") {
-  const Resultant of_triangle = resultant(
+  const TractionResultant of_triangle = resultant(
       scenes::load("block", triangle({"phase.max_motion=0.1", "traction=[{line=[[4, 0], [0, 3]], value=[0, 1]}]"})));
   CHECK(of_triangle.y == Approx(5).epsilon(1e-12));
   CHECK(of_triangle.moment == Approx(10).epsilon(1e-12));
@@ -208,7 +208,7 @@ TEST_CASE("in phases a line is carried with all of its force and moment, on poly
   auto overrides = in_room({"traction=[{line=[[0.5, 1], [0.5, 1.5]], pressure=2}]"});
   std::erase_if(overrides, [](const std::string& setting) { return setting.starts_with("body."); });
   overrides.insert(overrides.begin(), two);
-  const Resultant of_second = resultant(scenes::load("block", overrides));
+  const TractionResultant of_second = resultant(scenes::load("block", overrides));
   CHECK(of_second.x == Approx(-1).epsilon(1e-12));
   CHECK(std::abs(of_second.y) < 1e-14);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include <Eigen/SparseCore>
@@ -10,6 +11,8 @@
 #include "statics.hpp"
 
 namespace stillpoint::test {
+
+inline const std::vector<std::string> contact_states = {"plane-strain", "axisymmetric", "space"};
 
 /// Some displacements, different from unknown to unknown.
 inline std::vector<double> some_motion(std::size_t n, double size) {

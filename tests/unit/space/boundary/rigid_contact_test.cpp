@@ -32,8 +32,6 @@ Scene touched_block(const std::string& kind, const std::string& rigid, const std
                     {});
 }
 
-const std::vector<std::string> kinds = {"plane-strain", "axisymmetric", "space"};
-
 std::string ball_at(const std::string& kind, double height) {
   if (kind == "space") return fmt::format("sphere = [0.75, {}, 0.8]\nradius = 0.6", height);
   return fmt::format("disc = [{}, {}]\nradius = 0.6", kind == "axisymmetric" ? 0.0 : 0.75, height);
@@ -42,7 +40,7 @@ std::string ball_at(const std::string& kind, double height) {
 }  // namespace
 
 TEST_CASE("a rigid body that is apart leaves R as it is to the bit, and reports nothing") {
-  for (const std::string& kind : kinds) {
+  for (const std::string& kind : contact_states) {
     CAPTURE(kind);
     const auto apart = make_phase(touched_block(kind, ball_at(kind, 1.9)));
     Scene alone = touched_block(kind, ball_at(kind, 1.9));
@@ -58,7 +56,7 @@ TEST_CASE("a rigid body that is apart leaves R as it is to the bit, and reports 
 }
 
 TEST_CASE("the tangent of contact is the derivative of its force, and symmetric without friction") {
-  for (const std::string& kind : kinds) {
+  for (const std::string& kind : contact_states) {
     for (const char* friction : {"0", "0.3", "'rough'", "0.2\nadhesion = 0.5", "0\nadhesion = 0.5"}) {
       CAPTURE(kind, friction);
       const auto phase = make_phase(touched_block(kind, ball_at(kind, 1.65) + "\nfriction = " + friction));
@@ -77,7 +75,7 @@ TEST_CASE("the tangent of contact is the derivative of its force, and symmetric 
 }
 
 TEST_CASE("a free rigid body presses with its weight and its force at any state, and its tangent is their derivative") {
-  for (const std::string& kind : kinds) {
+  for (const std::string& kind : contact_states) {
     CAPTURE(kind);
     const std::string third = kind == "space" ? ", '0'" : "";
     const auto phase = make_phase(

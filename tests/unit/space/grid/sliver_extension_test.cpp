@@ -38,13 +38,13 @@ void check_close(const std::vector<double>& found, const std::vector<double>& ex
 }
 
 // A corner of a body that ends askew in the grid, whose cells have different sizes.
-const Grid<2> plane{{Axis{{0, 1, 1.8, 3, 3.7, 5, 6}}, Axis{{0, 0.6, 1.7, 2.5, 3.6, 4.2}}}};
+const Grid<2> uneven_plane{{Axis{{0, 1, 1.8, 3, 3.7, 5, 6}}, Axis{{0, 0.6, 1.7, 2.5, 3.6, 4.2}}}};
 CellShares corner() {
   CellShares shares;
   for (int y = 0; y < 4; ++y) {
     for (int x = 0; x < 5; ++x) {
       const double reach = std::min(x == 4 ? 0.2 : 1.0, y == 3 ? 0.1 : 1.0) - (x == 4 && y == 3 ? 0.08 : 0);
-      shares.emplace_back(plane.cell_number({x, y}), reach);
+      shares.emplace_back(uneven_plane.cell_number({x, y}), reach);
     }
   }
   return shares;
@@ -55,20 +55,20 @@ template <class B, class Field>
 std::vector<double> coefficients(const Field& field) {
   using Basis = TensorBasis<B, 2>;
   constexpr int along = B::per_cell;
-  const auto offset = Basis::offsets(plane);
-  Eigen::MatrixXd N = Eigen::MatrixXd::Zero(plane.cells() * along * along, Basis::count(plane));
+  const auto offset = Basis::offsets(uneven_plane);
+  Eigen::MatrixXd N = Eigen::MatrixXd::Zero(uneven_plane.cells() * along * along, Basis::count(uneven_plane));
   Eigen::VectorXd q(N.rows());
   int row = 0;
-  for (int cell = 0; cell < plane.cells(); ++cell) {
-    const auto at = plane.cell_at(cell);
+  for (int cell = 0; cell < uneven_plane.cells(); ++cell) {
+    const auto at = uneven_plane.cell_at(cell);
     for (int k = 0; k < along * along; ++k, ++row) {
       Point<2> x;
       for (int d = 0; d < 2; ++d) {
-        const double left = plane.axes[d].nodes[at[d]], right = plane.axes[d].nodes[at[d] + 1];
+        const double left = uneven_plane.axes[d].nodes[at[d]], right = uneven_plane.axes[d].nodes[at[d] + 1];
         x[d] = left + (right - left) * ((d == 0 ? k % along : k / along) + 0.5) / along;
       }
-      const auto values = Basis::evaluate(plane, at, x);
-      for (int a = 0; a < Basis::per_cell; ++a) N(row, Basis::first(plane, at) + offset[a]) = values.N[a];
+      const auto values = Basis::evaluate(uneven_plane, at, x);
+      for (int a = 0; a < Basis::per_cell; ++a) N(row, Basis::first(uneven_plane, at) + offset[a]) = values.N[a];
       q(row) = field(x);
     }
   }
@@ -80,8 +80,8 @@ std::vector<double> coefficients(const Field& field) {
 template <class B>
 void check_that_polynomials_are_kept() {
   const std::vector<CellShares> covered = {corner()};
-  const CutCells<2> cut(plane, covered, B::degree);
-  const SliverExtension<B, 2> extension(plane, cut, may_follow);
+  const CutCells<2> cut(uneven_plane, covered, B::degree);
+  const SliverExtension<B, 2> extension(uneven_plane, cut, may_follow);
   REQUIRE_FALSE(extension.functions().empty());
   CHECK(extension.joined() == extension.slivers());
   const auto u = coefficients<B>([](const Point<2>& x) {

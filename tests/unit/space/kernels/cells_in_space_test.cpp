@@ -14,13 +14,12 @@ using namespace stillpoint;
 
 namespace {
 
-constexpr Kinematics K = Kinematics::space;
-using Block = PointBlock<K>;
+using SpaceBlock = PointBlock<Kinematics::space>;
 
 /// Uneven sides; from no point to eleven in a cell, anywhere in it.
 template <AxisBasis B>
 struct Scattered {
-  using Weights = PointWeights<B, K>;
+  using Weights = PointWeights<B, Kinematics::space>;
   using Basis = TensorBasis<B, 3>;
   Grid<3> grid{{Axis{{0, 0.5, 2}}, Axis{{-1, 0, 0.25, 1}}, Axis{{0, 3, 4}}}};
   MaterialPoints<3> points;
@@ -63,9 +62,9 @@ TEMPLATE_TEST_CASE("weights in space, made from positions or from factors, are t
 
 TEMPLATE_TEST_CASE("gathering in space gives the gradients of the displacement and of its increment, cell by cell", "",
                    BSpline<1>, BSpline<2>, BSpline<3>) {
-  using Cells = GatherScatter<TestType, K>;
+  using Cells = GatherScatter<TestType, Kinematics::space>;
   const Scattered<TestType> s;
-  Block block;
+  SpaceBlock block;
   std::vector<double> increment = s.u;
   for (std::size_t i = 0; i < increment.size(); ++i) increment[i] -= s.before[i];
   for (std::size_t k = 0; k < s.points.cells(); ++k) {
@@ -81,10 +80,10 @@ TEMPLATE_TEST_CASE("gathering in space gives the gradients of the displacement a
 
 TEMPLATE_TEST_CASE("scattering in space gives each function the stresses of the points times the gradients there", "",
                    BSpline<1>, BSpline<2>, BSpline<3>) {
-  using Cells = GatherScatter<TestType, K>;
+  using Cells = GatherScatter<TestType, Kinematics::space>;
   constexpr std::size_t functions = Scattered<TestType>::Basis::per_cell;
   const Scattered<TestType> s;
-  Block block;
+  SpaceBlock block;
   for (std::size_t k = 0; k < s.points.cells(); ++k) {
     block.first = s.points.begin(k);
     const auto P = test::random_values(9 * (s.points.end(k) - s.points.begin(k)), 1, static_cast<unsigned>(k));
@@ -103,7 +102,7 @@ TEMPLATE_TEST_CASE("scattering in space gives each function the stresses of the 
 
 TEST_CASE("a block of points under one stress pushes on its border alone, with the stress times the area") {
   test::CubeOfCells<> cube(6);
-  const auto answer = [&](std::size_t, Block& block) {
+  const auto answer = [&](std::size_t, SpaceBlock& block) {
     double bad = 0;
     for (std::size_t q = 0; q < block.count; ++q)
       bad += block.store_stress(q, cube.points.volume[block.first + q], {2, 0, 0, 0, 3, 0, 0, 0, 5});
@@ -133,7 +132,7 @@ TEST_CASE("a block of points under one stress pushes on its border alone, with t
 
 TEST_CASE("forces of trilinear cells are the same bits for 1, 2 and 3 threads") {
   test::CubeOfCells<> cube(12);  // more points than one thread takes
-  const auto answer = [&](std::size_t, Block& block) {
+  const auto answer = [&](std::size_t, SpaceBlock& block) {
     double bad = 0;
     for (std::size_t q = 0; q < block.count; ++q)
       bad += block.store_stress(q, cube.points.volume[block.first + q], block.H_at(q));

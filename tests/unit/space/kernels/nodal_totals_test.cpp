@@ -21,10 +21,10 @@ namespace {
 
 /// A body with one to a dozen points in a cell, some of them on the lines of the grid, and random velocities.
 template <AxisBasis B, Kinematics K>
-struct Block {
+struct RandomBody {
   static constexpr bool of_domains = B::window > 1;
 
-  Block() {
+  RandomBody() {
     grid.axes = {Axis::uniform(1, 6, 5), Axis::uniform(0, 4, 4)};
     grid.axes[0].nodes.back() = 5.7;  // next to a wall that the grid follows
     BodySpec body;
@@ -84,7 +84,7 @@ using Cases = std::tuple<Case<BSpline<1>, Kinematics::plane>, Case<BSpline<2>, K
 
 TEMPLATE_LIST_TEST_CASE("masses, stiffness bounds and momenta of a phase's start are sums over its points", "", Cases) {
   using B = typename TestType::B;
-  Block<B, TestType::K> block;
+  RandomBody<B, TestType::K> block;
   const std::size_t functions = block.corner_sum.functions();
   std::vector<double> mass(functions), bound(functions), momentum(2 * functions);
   for (std::size_t k = 0; k < block.points.cells(); ++k) {
@@ -115,7 +115,7 @@ TEMPLATE_LIST_TEST_CASE("masses, stiffness bounds and momenta of a phase's start
 
 TEMPLATE_LIST_TEST_CASE("points go where the weights say, and as fast", "", Cases) {
   using B = typename TestType::B;
-  Block<B, TestType::K> block;
+  RandomBody<B, TestType::K> block;
   std::vector<double> u(2 * block.corner_sum.functions()), w(u.size());
   for (double& of_function : u) of_function = block.number(-1, 1);
   for (double& of_function : w) of_function = block.number(-1, 1);

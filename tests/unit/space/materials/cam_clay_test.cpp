@@ -17,11 +17,11 @@ namespace stillpoint {
 namespace {
 
 using enum StressState;
+using checks::minus;
+using test::cell_pressure;
 
 template <StressState S>
-using Path = test::HistoryPath<CamClay<S>, CamClayParameters>;
-
-constexpr double cell = -1e5;  // [Pa]
+using ClayPath = test::HistoryPath<CamClay<S>, CamClayParameters>;
 
 CamClayParameters clay(double OCR, bool evolves = true) {
   return {.M = 1.2, .lambda = 0.2, .kappa = 0.04, .nu = 0.3, .e0 = 1, .OCR = OCR, .volume_evolves = evolves};
@@ -61,7 +61,7 @@ const std::vector<Expected> drained_5_fixed = {
     {0.2, 172.77035350589588, 218.31106051768765, 364.33694182367765, 1.0289808817929678},
 };
 
-double error_of(const Path<axisymmetric>& path, const Expected& at) {
+double error_of(const ClayPath<axisymmetric>& path, const Expected& at) {
   const Stress<axisymmetric> s = path.stress();
   const double p = -(s[0] + s[1] + s[2]) / 3000, q = (s[0] - s[1]) / 1000;
   Largest error;
@@ -76,7 +76,7 @@ double error_of(const Path<axisymmetric>& path, const Expected& at) {
 template <class Advance>
 double largest_error(const CamClayParameters& m, double size, const std::vector<Expected>& expected,
                      const Advance& advance) {
-  Path<axisymmetric> path(m, {cell, cell, cell, 0});
+  ClayPath<axisymmetric> path(m, {cell_pressure, cell_pressure, cell_pressure, 0});
   Largest error;
   int k = 0;
   for (const Expected& at : expected) {
@@ -86,15 +86,15 @@ double largest_error(const CamClayParameters& m, double size, const std::vector<
   return error.value();
 }
 double undrained_error(double OCR, double size, const std::vector<Expected>& expected) {
-  return largest_error(clay(OCR), size, expected, [](Path<axisymmetric>& path, double axial) {
+  return largest_error(clay(OCR), size, expected, [](ClayPath<axisymmetric>& path, double axial) {
     path.step({std::expm1(axial / 2), 0, 0, std::expm1(-axial), std::expm1(axial / 2)});
   });
 }
 // The axial strain is led, and the stress across it held at the end of each step.
 double drained_error(double OCR, bool evolves, double size, const std::vector<Expected>& expected) {
-  return largest_error(clay(OCR, evolves), size, expected, [](Path<axisymmetric>& path, double axial) {
+  return largest_error(clay(OCR, evolves), size, expected, [](ClayPath<axisymmetric>& path, double axial) {
     const auto at = [&](double rr) { return Gradient<axisymmetric>{rr, 0, 0, std::expm1(-axial), rr}; };
-    const auto off = [&](double rr) { return path.stress_after(at(rr))[0] - cell; };
+    const auto off = [&](double rr) { return path.stress_after(at(rr))[0] - cell_pressure; };
     double x0 = path.H[0], x1 = x0 + 1e-5, f0 = off(x0), f1 = off(x1);
     for (int k = 0; k < 60 && f1 != f0; ++k) {
       const double x2 = x1 - f1 * (x1 - x0) / (f1 - f0);
@@ -102,13 +102,6 @@ double drained_error(double OCR, bool evolves, double size, const std::vector<Ex
     }
     path.step(at(x1));
   });
-}
-
-template <StressState S>
-Gradient<S> minus(const Gradient<S>& a, const Gradient<S>& b) {
-  Gradient<S> difference;
-  for (std::size_t k = 0; k < a.size(); ++k) difference[k] = a[k] - b[k];
-  return difference;
 }
 
 }  // namespace
@@ -147,7 +140,7 @@ TEST_CASE("isotropic loading and unloading follow the lines of lambda and kappa 
   const auto [evolves, e_400, e_50] =
       GENERATE(Case{true, 0.7227411277760218, 0.8059187894432153}, Case{false, 0.7411011265922482, 0.8150383106343217});
   for (const int steps : {3, 10}) {
-    Path<axisymmetric> path(clay(1, evolves), {cell, cell, cell, 0});
+    ClayPath<axisymmetric> path(clay(1, evolves), {cell_pressure, cell_pressure, cell_pressure, 0});
     const auto to = [&](double e) {
       const double h = std::cbrt((1 + e) / 2) - 1;
       path.go({h, 0, 0, h, h}, steps);
@@ -168,7 +161,7 @@ TEST_CASE("an oedometer test of Cam clay from an isotropic stress is exact, and 
   struct Row {
     double strain, axial, radial, pc;
   };
-  Path<axisymmetric> path(clay(1, /*evolves=*/false), {cell, cell, cell, 0});
+  ClayPath<axisymmetric> path(clay(1, /*evolves=*/false), {cell_pressure, cell_pressure, cell_pressure, 0});
   int k = 0;
   for (const Row& row : {Row{0.01, 126.2554171495506, 94.93855834008441, 111.84068692770462},
                          Row{0.02, 142.26571515109902, 97.0367931832507, 124.784180059664},
@@ -190,22 +183,24 @@ TEST_CASE("the overconsolidation ratio is one of vertical stresses at rest, and 
   for (const Row& row : {Row{1, 0.6476292208559854, 87.7786932671487}, Row{2, 0.8666870131405422, 175.5573865342974},
                          Row{4, 1.3048025977096558, 351.1147730685948}}) {
     const CamClay<plane_strain> law(clay(row.OCR));
-    const Stress<plane_strain> sigma = {row.K0 * cell, cell, row.K0 * cell, 0};
+    const Stress<plane_strain> sigma = {row.K0 * cell_pressure, cell_pressure, row.K0 * cell_pressure, 0};
     CHECK(law.initial_history(sigma, {.at_rest = true})[4] == Approx(1e3 * row.pc).epsilon(1e-12));
     const double p = (1 + 2 * row.K0) / 3 * 1e5, q = std::abs(1 - row.K0) * 1e5;
     CHECK(law.initial_history(sigma)[4] == Approx(row.OCR * (p + q * q / (1.44 * p))).epsilon(1e-12));
   }
   // Ground that no normal consolidation could bring there lies on its yield surface
   const CamClay<plane_strain> law(clay(1));
-  const auto steep = law.initial_history({0.4 * cell, cell, 0.4 * cell, 0}, {.at_rest = true});
+  const auto steep =
+      law.initial_history({0.4 * cell_pressure, cell_pressure, 0.4 * cell_pressure, 0}, {.at_rest = true});
   CHECK(law.yield_state(steep).f == Approx(0).margin(1e-6));
-  CHECK(law.initial_history({cell, cell, cell, 0}, {.at_rest = false, .consolidation = 3})[4] == Approx(3e5));
+  CHECK(law.initial_history({cell_pressure, cell_pressure, cell_pressure, 0},
+                            {.at_rest = false, .consolidation = 3})[4] == Approx(3e5));
   // Outside of the yield surface f is positive, at its tip too, where there is no strength
   CamClayParameters weak = clay(1);
   weak.pc = 0.5e5;
   const CamClay<plane_strain> pressed(weak);
-  CHECK(pressed.yield_state(pressed.initial_history({cell, cell, cell, 0})).f > 1e4);
-  CHECK(pressed.yield_state(pressed.initial_history({cell, cell, cell, 0})).strength == 0);
+  CHECK(pressed.yield_state(pressed.initial_history({cell_pressure, cell_pressure, cell_pressure, 0})).f > 1e4);
+  CHECK(pressed.yield_state(pressed.initial_history({cell_pressure, cell_pressure, cell_pressure, 0})).strength == 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("moduli of Cam clay are the derivative of the stress, on the wet side, on the dry one, elastic",
@@ -236,7 +231,7 @@ TEMPLATE_TEST_CASE_SIG("moduli of Cam clay are the derivative of the stress, on 
 
 TEST_CASE("the tangent of pure shear at the tip of the ellipse, where it begins, is finite and right") {
   const CamClay<axisymmetric> law(clay(1));
-  const auto now = law.initial_history({cell, cell, cell, 0});
+  const auto now = law.initial_history({cell_pressure, cell_pressure, cell_pressure, 0});
   for (const double size : {1e-9, 1e-6, 1e-3}) {
     const Gradient<axisymmetric> H = {size / 2, 0, 0, -size, size / 2};
     const auto A = law.moduli(H, H, 0, now);
@@ -295,7 +290,7 @@ TEST_CASE("Cam clay in the plane and around an axis is that in space, and turned
 }
 
 TEST_CASE("an elastic cycle of strain brings Cam clay back to its stress, and so does no increment at all") {
-  Path<plane_strain> path(clay(5), {-1e5, -1.1e5, -0.9e5, 5e3});
+  ClayPath<plane_strain> path(clay(5), {-1e5, -1.1e5, -0.9e5, 5e3});
   const auto first = path.now;
   path.step({});
   for (std::size_t h = 0; h < first.size(); ++h) CHECK(path.now[h] == first[h]);
@@ -311,7 +306,7 @@ TEST_CASE("an elastic cycle of strain brings Cam clay back to its stress, and so
 
 TEST_CASE("all paths of shear end in the critical state, where nothing but the shape changes") {
   for (const double OCR : {1.0, 2.0, 5.0, 20.0}) {
-    Path<plane_strain> path(clay(OCR), {cell, cell, cell, 0});
+    ClayPath<plane_strain> path(clay(OCR), {cell_pressure, cell_pressure, cell_pressure, 0});
     for (int k = 1; k <= 400; ++k) {  // at a constant volume
       const double a = 0.0025 * k;
       path.step({std::expm1(a), 0, 0, std::expm1(-a)});
@@ -330,7 +325,7 @@ TEST_CASE("all paths of shear end in the critical state, where nothing but the s
 
 TEST_CASE("an increment far beyond kappa, or beyond what the flow resolves, is not a number") {
   const auto is_refused = [](double OCR, const Gradient<plane_strain>& H) {
-    Path<plane_strain> path(clay(OCR), {cell, cell, cell, 0});
+    ClayPath<plane_strain> path(clay(OCR), {cell_pressure, cell_pressure, cell_pressure, 0});
     const auto P = path.step(H);
     return std::isnan(P[0] + P[1] + P[2] + P[3]);
   };
@@ -344,7 +339,7 @@ TEST_CASE("an increment far beyond kappa, or beyond what the flow resolves, is n
 }
 
 TEST_CASE("the stiffness of Cam clay is that of the present pressure and volume") {
-  Path<space> path(clay(1), {cell, cell, cell, 0, 0, 0});
+  ClayPath<space> path(clay(1), {cell_pressure, cell_pressure, cell_pressure, 0, 0, 0});
   const double K = path.law.moduli_at(path.now).bulk;
   CHECK(K == Approx(2 * 1e5 / 0.04));
   CHECK(path.law.moduli_at(path.now).shear == Approx(1.5 * 0.4 / 1.3 * K));

@@ -1,20 +1,19 @@
 #include <stillpoint/drucker_prager_cone.hpp>
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
+#include "law_checks.hpp"
+
 using namespace stillpoint;
-
-namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-
-}  // namespace
+using checks::one_degree;
 
 TEST_CASE("in plane strain the cone of no dilatancy is eta = sin phi, xi = cos phi") {
   for (const double phi : {0.0, 20.0, 35.0}) {
     const auto cone = ConeCoefficients::from(Cone::plane_strain, phi, 0);
-    CHECK(cone.eta == Approx(std::sin(phi * degree)).epsilon(1e-15));
-    CHECK(cone.xi == Approx(std::cos(phi * degree)).epsilon(1e-15));
+    CHECK(cone.eta == Approx(std::sin(phi * one_degree)).epsilon(1e-15));
+    CHECK(cone.xi == Approx(std::cos(phi * one_degree)).epsilon(1e-15));
     CHECK(cone.eta_bar == 0);
   }
 }
@@ -22,7 +21,7 @@ TEST_CASE("in plane strain the cone of no dilatancy is eta = sin phi, xi = cos p
 TEST_CASE("the associated cone of plane strain is Drucker and Prager's 3 tan phi/sqrt(9 + 12 tan^2 phi)") {
   for (const double phi : {10.0, 30.0, 45.0}) {
     const auto cone = ConeCoefficients::from(Cone::plane_strain, phi, phi);
-    const double t = std::tan(phi * degree), root = std::sqrt(9 + 12 * t * t);
+    const double t = std::tan(phi * one_degree), root = std::sqrt(9 + 12 * t * t);
     CHECK(cone.eta == Approx(3 * t / root).epsilon(1e-14));
     CHECK(cone.eta_bar == Approx(cone.eta).epsilon(1e-14));
     CHECK(cone.xi == Approx(3 / root).epsilon(1e-14));
@@ -46,7 +45,7 @@ TEST_CASE("every cone has its apex at c cot phi, and an associated one flows nor
     INFO(word);
     CHECK(cone_of(word) == kind);
     const auto cone = ConeCoefficients::from(kind, 25, 10);
-    CHECK(cone.xi / cone.eta == Approx(1 / std::tan(25 * degree)).epsilon(1e-14));
+    CHECK(cone.xi / cone.eta == Approx(1 / std::tan(25 * one_degree)).epsilon(1e-14));
     const auto associated = ConeCoefficients::from(kind, 25, 25);
     CHECK(associated.eta_bar == Approx(associated.eta).epsilon(1e-14));
   }

@@ -16,8 +16,8 @@ using namespace stillpoint::test;
 TEMPLATE_TEST_CASE_SIG("elastic moduli are the derivative of an elastic trial but for sigma tr d, and symmetric", "",
                        ((StressState S), S), plane_strain, axisymmetric) {
   constexpr int n = gradient_components(S);
-  const DruckerPrager<S> law({.E = E, .nu = nu, .c = 1e3 * E});
-  const auto history = law.initial_history({-0.3 * E, 0.1 * E, -0.2 * E, 0.2 * E});
+  const DruckerPrager<S> law({.E = ground_E, .nu = ground_nu, .c = 1e3 * ground_E});
+  const auto history = law.initial_history({-0.3 * ground_E, 0.1 * ground_E, -0.2 * ground_E, 0.2 * ground_E});
   for (const auto& H : checks::deformations<S>()) {
     const auto trial = [&](const Gradient<S>& to) {
       Gradient<S> dH;
@@ -27,7 +27,7 @@ TEMPLATE_TEST_CASE_SIG("elastic moduli are the derivative of an elastic trial bu
     };
     auto A = law.elastic_moduli(H, history);
     for (int a = 0; a < n; ++a) {
-      for (int b = 0; b < n; ++b) CHECK(A[n * a + b] == Approx(A[n * b + a]).margin(1e-14 * E));  // rounding
+      for (int b = 0; b < n; ++b) CHECK(A[n * a + b] == Approx(A[n * b + a]).margin(1e-14 * ground_E));  // rounding
     }
     // σ tr(d) cof f, tr(d) cof f_ij = (cof f ⊗ cof f)/det f
     const PlaneTensor f = deformation_gradient<S>(H), cof = determinant(f) * transpose(inverse(f));
@@ -83,7 +83,7 @@ void check_moduli(const State<S>& state, double angle) {
     for (int a = 0; a < n; ++a) {
       for (int b = 0; b < n; ++b) skew.take_magnitude(A[n * a + b] - A[n * b + a]);
     }
-    CHECK(skew.value() > 1e-3 * E);
+    CHECK(skew.value() > 1e-3 * ground_E);
   }
 }
 
@@ -92,7 +92,7 @@ void check_moduli(const State<S>& state, double angle) {
 TEMPLATE_TEST_CASE_SIG("moduli are the derivative of the return: elastic, on the cone, its edge and apex, in a gap", "",
                        ((StressState S), S), plane_strain, axisymmetric) {
   using History = typename DruckerPrager<S>::History;
-  const DruckerPragerParameters soil = {.E = E, .nu = nu, .phi = 30, .psi = 10, .c = 1e4};
+  const DruckerPragerParameters soil = {.E = ground_E, .nu = ground_nu, .phi = 30, .psi = 10, .c = 1e4};
   const auto soil_with = [&](const auto& change) {
     auto changed = soil;
     change(changed);
@@ -100,7 +100,7 @@ TEMPLATE_TEST_CASE_SIG("moduli are the derivative of the return: elastic, on the
   };
   const History pressed = {-3e5, -2e5, -2.5e5, 5e4, 0, 0}, soft = {-3e5, -2e5, -2.5e5, 5e4, 0, 0.05};
   const PlaneTensor shear = {0.02, 0.15, -0.03, -0.03, 0.01}, apart = {0.04, 0.02, 0.01, 0.05, 0.03};
-  const auto strong = soil_with([](auto& m) { m.c = 1e3 * E; });
+  const auto strong = soil_with([](auto& m) { m.c = 1e3 * ground_E; });
   const auto associated = soil_with([](auto& m) { m.psi = 30, m.cone = Cone::mean; });
   const auto cut = soil_with([](auto& m) { m.tension = 4e3; });
   const auto viscous = soil_with([](auto& m) { m.fluidity = 1e-4; });  // 1/(β dt) = G/4

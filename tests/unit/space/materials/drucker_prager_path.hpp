@@ -4,16 +4,17 @@
 #include <stillpoint/drucker_prager.hpp>
 
 #include <cmath>
-#include <numbers>
 
+#include "law_checks.hpp"
 #include "space/materials/history_path.hpp"
 
 namespace stillpoint::test {
 
 using enum StressState;
 
-constexpr double degree = std::numbers::pi / 180;
-constexpr double E = 1e7, nu = 0.2, G = E / (2 * (1 + nu)), K = E / (3 * (1 - 2 * nu));
+using checks::one_degree;
+constexpr double ground_E = 1e7, ground_nu = 0.2, ground_G = ground_E / (2 * (1 + ground_nu)),
+                 ground_K = ground_E / (3 * (1 - 2 * ground_nu));
 
 /// varies: of a soil that softens.
 template <StressState S, bool varies = false>

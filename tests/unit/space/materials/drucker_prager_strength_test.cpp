@@ -57,25 +57,26 @@ Mobilised mobilised(const DruckerPragerParameters& m, double strain, int axis, c
 
 TEST_CASE("rate-independent simple shear: tau = min(G gamma, c cos phi - p sin phi)") {
   for (const double phi : {0.0, 30.0}) {
-    const double p = -500, c = 400, tau_y = c * std::cos(phi * degree) - p * std::sin(phi * degree);
-    Path<plane_strain> path({.E = E, .nu = nu, .phi = phi, .c = c}, {p, p, p, 0});
+    const double p = -500, c = 400, tau_y = c * std::cos(phi * one_degree) - p * std::sin(phi * one_degree);
+    Path<plane_strain> path({.E = ground_E, .nu = ground_nu, .phi = phi, .c = c}, {p, p, p, 0});
     double gamma = 0;
     for (int k = 0; k < 400; ++k) {
       gamma += 1e-6;
       path.step({0, gamma, 0, 0});
-      CHECK(path.now[3] == Approx(std::min(G * gamma, tau_y)).epsilon(1e-6));  // rotation: γ²/6, and of σ_xx: γ τ
+      CHECK(path.now[3] ==
+            Approx(std::min(ground_G * gamma, tau_y)).epsilon(1e-6));  // rotation: γ²/6, and of σ_xx: γ τ
     }
-    CHECK(G * gamma > 2 * tau_y);
-    CHECK(path.plastic_strain() == Approx(gamma - tau_y / G).epsilon(1e-3));  // γᵖ is the plastic part of γ
+    CHECK(ground_G * gamma > 2 * tau_y);
+    CHECK(path.plastic_strain() == Approx(gamma - tau_y / ground_G).epsilon(1e-3));  // γᵖ is the plastic part of γ
   }
 }
 
 TEST_CASE("viscoplastic simple shear: tau = tau_y + rate/beta (1 - exp(-G beta (t - t_y))), first order in dt") {
   const double tau_y = 400, beta = 1e-3, rate = 0.1;  // 1/(G β) = 0.24 ms, rate/β = 100 Pa
-  const double t_y = tau_y / (G * rate), end = t_y + 2 / (G * beta);
+  const double t_y = tau_y / (ground_G * rate), end = t_y + 2 / (ground_G * beta);
   const double exact = tau_y + rate / beta * (1 - std::exp(-2.0));
   const auto error = [&](int steps) {
-    Path<plane_strain> path({.E = E, .nu = nu, .c = tau_y, .fluidity = beta});
+    Path<plane_strain> path({.E = ground_E, .nu = ground_nu, .c = tau_y, .fluidity = beta});
     path.go({0, rate * t_y, 0, 0}, 1, t_y);
     CHECK(path.plastic_strain() == Approx(0).margin(1e-15));
     path.go({0, rate * end, 0, 0}, steps, (end - t_y) / steps);
@@ -88,10 +89,11 @@ TEST_CASE("viscoplastic simple shear: tau = tau_y + rate/beta (1 - exp(-G beta (
 
 TEST_CASE("a viscoplastic point does not flow in no time, and is rate-independent in much time") {
   const Gradient<plane_strain> H = {0.01, 0.03, 0.01, -0.02};
-  const DruckerPragerParameters viscous = {.E = E, .nu = nu, .phi = 30, .psi = 10, .c = 100, .fluidity = 1e-6};
+  const DruckerPragerParameters viscous = {
+      .E = ground_E, .nu = ground_nu, .phi = 30, .psi = 10, .c = 100, .fluidity = 1e-6};
   auto plastic = viscous, elastic = viscous;
   plastic.fluidity = 0;
-  elastic.c = 1e3 * E;
+  elastic.c = 1e3 * ground_E;
   const Stress<plane_strain> before = {-1e4, -2e4, -1e4, 100};
   Path<plane_strain> none(viscous, before), much(viscous, before), instant(plastic, before), never(elastic, before);
   CHECK(none.step(H, 0) == never.step(H));
@@ -100,26 +102,26 @@ TEST_CASE("a viscoplastic point does not flow in no time, and is rate-independen
   // the cut-off holds in no time, too
   Path<plane_strain> apart(viscous);
   apart.step({0.01, 0, 0, 0.01}, 0);
-  CHECK(p_of(apart) == Approx(100 / std::tan(30 * degree)).epsilon(1e-12));
+  CHECK(p_of(apart) == Approx(100 / std::tan(30 * one_degree)).epsilon(1e-12));
 }
 
 TEST_CASE("an elastic confined compression has K0 = nu/(1 - nu)") {
-  Path<plane_strain> plane({.E = E, .nu = nu, .c = 1e3 * E});
+  Path<plane_strain> plane({.E = ground_E, .nu = ground_nu, .c = 1e3 * ground_E});
   plane.go({0, 0, 0, -0.1}, 10);
-  Path<axisymmetric> round({.E = E, .nu = nu, .c = 1e3 * E});
+  Path<axisymmetric> round({.E = ground_E, .nu = ground_nu, .c = 1e3 * ground_E});
   round.go({0, 0, 0, -0.1, 0}, 10);
   for (const auto& s : {plane.law.cauchy(plane.now), round.law.cauchy(round.now)}) {
-    CHECK(s[0] / s[1] == Approx(nu / (1 - nu)).epsilon(1e-12));  // rounding
+    CHECK(s[0] / s[1] == Approx(ground_nu / (1 - ground_nu)).epsilon(1e-12));  // rounding
     CHECK(s[2] == Approx(s[0]).epsilon(1e-12));
   }
 }
 
 TEST_CASE("a yielding confined compression has K0 = (1 - eta/sqrt 3)/(1 + 2 eta/sqrt 3)") {
-  const double eta = std::sin(20 * degree), root = std::sqrt(3.0);
+  const double eta = std::sin(20 * one_degree), root = std::sqrt(3.0);
   const double K0 = (1 - eta / root) / (1 + 2 * eta / root);
-  REQUIRE(K0 > nu / (1 - nu));  // so that it yields, from the first increment on
-  Path<plane_strain> plane({.E = E, .nu = nu, .phi = 20});
-  Path<axisymmetric> round({.E = E, .nu = nu, .phi = 20});
+  REQUIRE(K0 > ground_nu / (1 - ground_nu));  // so that it yields, from the first increment on
+  Path<plane_strain> plane({.E = ground_E, .nu = ground_nu, .phi = 20});
+  Path<axisymmetric> round({.E = ground_E, .nu = ground_nu, .phi = 20});
   for (const double e : {-1e-5, -1e-3, -0.1}) {
     plane.go({0, 0, 0, e}, 3);
     round.go({0, 0, 0, e, 0}, 3);
@@ -133,15 +135,16 @@ TEST_CASE("a yielding confined compression has K0 = (1 - eta/sqrt 3)/(1 + 2 eta/
 TEST_CASE("a biaxial test mobilises phi and psi with the cone matched to plane strain") {
   for (const double phi : {20.0, 35.0}) {
     for (const double psi : {0.0, 10.0, phi}) {
-      const auto test = mobilised<plane_strain>({.E = E, .nu = nu, .phi = phi, .psi = psi}, -0.03, 3, {0});
-      CHECK(test.friction == Approx(std::sin(phi * degree)).epsilon(1e-6));  // s_zz has settled as exp(−G γ/τ)
-      CHECK(test.dilatancy == Approx(std::sin(psi * degree)).margin(1e-4));  // the increment, 3 %/2000
+      const auto test =
+          mobilised<plane_strain>({.E = ground_E, .nu = ground_nu, .phi = phi, .psi = psi}, -0.03, 3, {0});
+      CHECK(test.friction == Approx(std::sin(phi * one_degree)).epsilon(1e-6));  // s_zz has settled as exp(−G γ/τ)
+      CHECK(test.dilatancy == Approx(std::sin(psi * one_degree)).margin(1e-4));  // the increment, 3 %/2000
     }
   }
 }
 
 TEST_CASE("a triaxial test mobilises phi with the cone of its edge, compressed or extended") {
-  const DruckerPragerParameters m = {.E = E, .nu = nu, .phi = 30, .psi = 5};
+  const DruckerPragerParameters m = {.E = ground_E, .nu = ground_nu, .phi = 30, .psi = 5};
   auto outer = m, inner = m;
   outer.cone = Cone::compression;
   inner.cone = Cone::extension;
@@ -150,7 +153,7 @@ TEST_CASE("a triaxial test mobilises phi with the cone of its edge, compressed o
 }
 
 TEST_CASE("without friction there is no apex: any mean stress is elastic, tau is c") {
-  Path<plane_strain> path({.E = E, .nu = nu, .c = 1000});
+  Path<plane_strain> path({.E = ground_E, .nu = ground_nu, .c = 1000});
   path.step({0.05, 0, 0, 0.05});
   path.step({0.05, 0.05, 0, 0.05});
   CHECK(p_of(path) > 100 * 1000);
@@ -160,14 +163,16 @@ TEST_CASE("without friction there is no apex: any mean stress is elastic, tau is
 
 TEST_CASE("strength falls linearly with the plastic strain to its residual value, and stays there") {
   const double p = -1000, softening_strain = 0.01;
-  const DruckerPragerParameters m = {.E = E,
-                                     .nu = nu,
+  const DruckerPragerParameters m = {.E = ground_E,
+                                     .nu = ground_nu,
                                      .phi = 35,
                                      .c = 500,
                                      .phi_residual = 25,
                                      .c_residual = 100,
                                      .softening_strain = softening_strain};
-  const auto strength = [&](double phi, double c) { return c * std::cos(phi * degree) - p * std::sin(phi * degree); };
+  const auto strength = [&](double phi, double c) {
+    return c * std::cos(phi * one_degree) - p * std::sin(phi * one_degree);
+  };
   const double peak = strength(35, 500), residual = strength(25, 100);
   Path<plane_strain, true> path(m, {p, p, p, 0});
   for (int k = 1; k <= 1000; ++k) {
@@ -182,8 +187,8 @@ TEST_CASE("strength falls linearly with the plastic strain to its residual value
 }
 
 TEST_CASE("a residual that is not given is that of the peak") {
-  const DruckerPragerParameters m = {.E = E, .nu = nu, .phi = 35, .c = 500, .softening_strain = 1e-3};
+  const DruckerPragerParameters m = {.E = ground_E, .nu = ground_nu, .phi = 35, .c = 500, .softening_strain = 1e-3};
   Path<plane_strain, true> path(m, {-1e3, -1e3, -1e3, 0});
   path.go({0, 0.01, 0, 0}, 100);
-  CHECK(root_J2_of(path) == Approx(500 * std::cos(35 * degree) + 1e3 * std::sin(35 * degree)).epsilon(1e-12));
+  CHECK(root_J2_of(path) == Approx(500 * std::cos(35 * one_degree) + 1e3 * std::sin(35 * one_degree)).epsilon(1e-12));
 }

@@ -21,11 +21,11 @@ TEST_CASE("elastic simple shear follows Jaumann's rate, tau = G sin gamma, with 
   // σ_xx = G (1 − cos γ) as well
   const double gamma = 1;
   const auto error = [&](int steps) {
-    Path<plane_strain> path({.E = E, .nu = nu, .c = 1e3 * E});
+    Path<plane_strain> path({.E = ground_E, .nu = ground_nu, .c = 1e3 * ground_E});
     path.go({0, gamma, 0, 0}, steps);
-    return std::hypot(path.now[3] - G * std::sin(gamma), path.now[0] - G * (1 - std::cos(gamma)));
+    return std::hypot(path.now[3] - ground_G * std::sin(gamma), path.now[0] - ground_G * (1 - std::cos(gamma)));
   };
-  CHECK(error(10) < 1e-3 * G);
+  CHECK(error(10) < 1e-3 * ground_G);
   CHECK(error(10) / error(20) == Approx(4).epsilon(0.02));
   CHECK(error(20) / error(40) == Approx(4).epsilon(0.02));
 }
@@ -34,14 +34,14 @@ TEMPLATE_TEST_CASE_SIG("a rotation by 90 degrees turns the stress exactly, in an
                        ((StressState S), S), plane_strain, axisymmetric) {
   const Stress<S> before = {-3e3, 1e3, -2e3, 2e3};
   for (const int steps : {1, 10, 1000}) {
-    Path<S> path({.E = E, .nu = nu, .phi = 30, .c = 1e6}, before);
+    Path<S> path({.E = ground_E, .nu = ground_nu, .phi = 30, .c = 1e6}, before);
     Gradient<S> P{};
     for (int k = 1; k <= steps; ++k)
-      P = path.step(gradient_part<S>(checks::rotation(90 * degree * k / steps) - identity<PlaneTensor>));
-    const PlaneTensor Q = checks::rotation(90 * degree);
+      P = path.step(gradient_part<S>(checks::rotation(90 * one_degree * k / steps) - identity<PlaneTensor>));
+    const PlaneTensor Q = checks::rotation(90 * one_degree);
     const Stress<S> exact = checks::turned<S>(Q, before);
     // H = Q − I rounds by 1e-16, which is 1e-16 K of stress an increment
-    const double rounding = 1e-16 * K * std::sqrt(steps) + 1e-15 * steps * 3e3;
+    const double rounding = 1e-16 * ground_K * std::sqrt(steps) + 1e-15 * steps * 3e3;
     for (std::size_t i = 0; i < exact.size(); ++i) {
       CHECK(path.law.cauchy(path.now)[i] == Approx(exact[i]).margin(10 * rounding));
     }
@@ -53,7 +53,7 @@ TEMPLATE_TEST_CASE_SIG("a rotation by 90 degrees turns the stress exactly, in an
 
 TEMPLATE_TEST_CASE_SIG("P is det(f) sigma f^-T after the increment", "", ((StressState S), S), plane_strain,
                        axisymmetric) {
-  Path<S> path({.E = E, .nu = nu, .phi = 30, .psi = 5, .c = 1e4}, {-3e3, -1e3, -2e3, 2e3});
+  Path<S> path({.E = ground_E, .nu = ground_nu, .phi = 30, .psi = 5, .c = 1e4}, {-3e3, -1e3, -2e3, 2e3});
   for (const auto& H : checks::deformations<S>()) {
     const auto P = path.step(H);
     const PlaneTensor f = deformation_gradient<S>(H), sigma = stress_tensor<S>(path.law.cauchy(path.now));
@@ -64,7 +64,7 @@ TEMPLATE_TEST_CASE_SIG("P is det(f) sigma f^-T after the increment", "", ((Stres
 TEST_CASE("a trial does not touch what it is made from: twice gives the same bits") {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> component(-0.05, 0.05);
-  const DruckerPrager<plane_strain> law({.E = E, .phi = 30, .psi = 10, .c = 100, .fluidity = 1e-6});
+  const DruckerPrager<plane_strain> law({.E = ground_E, .phi = 30, .psi = 10, .c = 100, .fluidity = 1e-6});
   const auto committed = law.initial_history({-3e3, -1e3, -2e3, 500});
   for (int i = 0; i < 100; ++i) {
     Gradient<plane_strain> H;
@@ -79,7 +79,7 @@ TEST_CASE("a trial does not touch what it is made from: twice gives the same bit
 TEMPLATE_TEST_CASE_SIG("a point turned inside out is not a number, so that the trial is refused", "",
                        ((StressState S), S), plane_strain, axisymmetric) {
   const auto refused = [](const Gradient<S>& to) {
-    const auto P = Path<S>({.E = E, .phi = 30}, {-1e3, -1e3, -1e3, 0}).step(to);
+    const auto P = Path<S>({.E = ground_E, .phi = 30}, {-1e3, -1e3, -1e3, 0}).step(to);
     return std::isnan(P[0]) && std::isnan(P[1]) && std::isnan(P[2]) && std::isnan(P[3]);
   };
   Gradient<S> H{};
@@ -97,12 +97,13 @@ TEMPLATE_TEST_CASE_SIG("no path leaves the cone or passes the cut-off", "", ((St
   std::mt19937 random(7);
   std::uniform_real_distribution<double> share(-1, 1);
   for (const DruckerPragerParameters& m :
-       {DruckerPragerParameters{.E = E, .nu = nu, .phi = 35},
-        DruckerPragerParameters{.E = E, .nu = nu, .phi = 35, .psi = 35, .c = 500},
-        DruckerPragerParameters{.E = E, .nu = nu, .phi = 30, .psi = 10, .c = 500, .cone = Cone::mean, .tension = 200},
-        DruckerPragerParameters{.E = E, .nu = nu, .c = 500, .tension = 100}}) {
+       {DruckerPragerParameters{.E = ground_E, .nu = ground_nu, .phi = 35},
+        DruckerPragerParameters{.E = ground_E, .nu = ground_nu, .phi = 35, .psi = 35, .c = 500},
+        DruckerPragerParameters{
+            .E = ground_E, .nu = ground_nu, .phi = 30, .psi = 10, .c = 500, .cone = Cone::mean, .tension = 200},
+        DruckerPragerParameters{.E = ground_E, .nu = ground_nu, .c = 500, .tension = 100}}) {
     const auto cone = ConeCoefficients::from(m.cone, m.phi, m.psi);
-    const double p_cut = m.phi > 0 ? std::min(m.tension, m.c / std::tan(m.phi * degree)) : m.tension;
+    const double p_cut = m.phi > 0 ? std::min(m.tension, m.c / std::tan(m.phi * one_degree)) : m.tension;
     Path<S> path(m);
     Largest worst, highest;
     for (int k = 0; k < 2000; ++k) {
@@ -114,7 +115,7 @@ TEMPLATE_TEST_CASE_SIG("no path leaves the cone or passes the cut-off", "", ((St
       highest.take(p_of(path) - p_cut);
       CHECK(path.gap() >= 0);
     }
-    CHECK(worst.value() < 1e-14 * E);  // rounding of a trial of 0.01 E
-    CHECK(highest.value() < 1e-14 * E);
+    CHECK(worst.value() < 1e-14 * ground_E);  // rounding of a trial of 0.01 E
+    CHECK(highest.value() < 1e-14 * ground_E);
   }
 }

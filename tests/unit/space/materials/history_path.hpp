@@ -7,6 +7,9 @@
 
 namespace stillpoint::test {
 
+/// Around a sample in a test of a laboratory [Pa].
+constexpr double cell_pressure = -1e5;
+
 /// Each step is a trial from the committed history, then committed.
 template <class Law, class Parameters>
 struct HistoryPath {

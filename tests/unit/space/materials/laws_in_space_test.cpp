@@ -15,26 +15,27 @@
 #include "largest.hpp"
 #include "law_checks.hpp"
 #include "space/materials/deformation.hpp"
+#include "space/materials/eigen_tensors.hpp"
 
 using namespace stillpoint;
+using checks::lame, checks::minus, checks::young;
+using test::matrix_of, test::tensor_of_matrix;
 using enum StressState;
 
 namespace {
 
-constexpr double E = 210.0, nu = 0.3;
-const LameParameters lame = LameParameters::from(E, nu);
-struct Cone {
+struct ConeLaws {
   template <StressState S>
   using Law = DruckerPrager<S>;
   static constexpr DruckerPragerParameters soil = {
       .E = 1e7, .nu = 0.25, .phi = 30, .psi = 10, .c = 2e3, .tension = 1e3};
 };
-struct Pyramid {
+struct PyramidLaws {
   template <StressState S>
   using Law = MohrCoulomb<S>;
   static inline const MohrCoulombParameters soil = {.E = 1e7, .nu = 0.25, .c = 2e3, .phi = 30, .psi = 10};
 };
-const DruckerPragerParameters& soil = Cone::soil;
+const DruckerPragerParameters& cone_soil = ConeLaws::soil;
 
 static_assert(HistoryLaw<DruckerPrager<space>> && ElasticLaw<Hencky<space>>);
 
@@ -62,15 +63,6 @@ Stress<space> raised_stress(const Stress<S>& s, int first) {
   return raised;
 }
 
-Eigen::Matrix3d matrix_of(const SpaceTensor& A) {
-  Eigen::Matrix3d matrix;
-  matrix << A.xx, A.xy, A.xz, A.yx, A.yy, A.yz, A.zx, A.zy, A.zz;
-  return matrix;
-}
-SpaceTensor tensor_of(const Eigen::Matrix3d& A) {
-  return {A(0, 0), A(0, 1), A(0, 2), A(1, 0), A(1, 1), A(1, 2), A(2, 0), A(2, 1), A(2, 2)};
-}
-
 /// Steps of a walk that strains, turns, yields and opens.
 template <StressState S>
 std::vector<Gradient<S>> walk(double size, int steps) {
@@ -83,12 +75,6 @@ std::vector<Gradient<S>> walk(double size, int steps) {
     to = H;
   }
   return walk;
-}
-
-template <StressState S>
-Gradient<S> minus(Gradient<S> a, const Gradient<S>& b) {
-  for (std::size_t c = 0; c < a.size(); ++c) a[c] -= b[c];
-  return a;
 }
 
 }  // namespace
@@ -124,11 +110,12 @@ TEST_CASE("the logarithm of a tensor is that of its eigenvalues, from 1e-2 to 1e
     const Eigen::Vector3d values(b[0], b[1], b[2]), minus_one(b[0] - 1, b[1] - 1, b[2] - 1);
     const Eigen::Matrix3d B = Q * minus_one.asDiagonal() * Q.transpose();
     const Eigen::Matrix3d exact = Q * values.array().log().matrix().asDiagonal() * Q.transpose();
-    const Eigen::Matrix3d found = matrix_of(log_of_unit_plus(tensor_of(B)));
+    const Eigen::Matrix3d found = matrix_of(log_of_unit_plus(tensor_of_matrix(B)));
     // Invariants of the tensor, rounded beside its largest eigenvalue, lose the square of their ratio.
     const double ratio = values.maxCoeff() / values.minCoeff();
     CHECK((found - exact).norm() <= 1e-14 + 1e-17 * ratio * ratio + 1e-13 * exact.norm());
-    CHECK((matrix_of(log_of_one(tensor_of(B))) - exact).norm() <= 1e-14 + 1e-17 * ratio * ratio + 1e-13 * exact.norm());
+    CHECK((matrix_of(log_of_one(tensor_of_matrix(B))) - exact).norm() <=
+          1e-14 + 1e-17 * ratio * ratio + 1e-13 * exact.norm());
   }
 }
 
@@ -183,8 +170,8 @@ TEMPLATE_TEST_CASE("a law without history in space is not a number where the bod
 }
 
 TEMPLATE_TEST_CASE_SIG("a walk of plastic strain in space ends where it ends in the plane and around an axis", "",
-                       ((class Soil, StressState S), Soil, S), (Cone, plane_strain), (Cone, axisymmetric),
-                       (Pyramid, plane_strain), (Pyramid, axisymmetric)) {
+                       ((class Soil, StressState S), Soil, S), (ConeLaws, plane_strain), (ConeLaws, axisymmetric),
+                       (PyramidLaws, plane_strain), (PyramidLaws, axisymmetric)) {
   const typename Soil::template Law<S> flat(Soil::soil);
   const typename Soil::template Law<space> law(Soil::soil);
   for (const int first : {0, 1, 2}) {
@@ -209,7 +196,8 @@ TEMPLATE_TEST_CASE_SIG("a walk of plastic strain in space ends where it ends in 
   }
 }
 
-TEMPLATE_TEST_CASE("a walk of plastic strain that is seen from turned axes has the turned stress", "", Cone, Pyramid) {
+TEMPLATE_TEST_CASE("a walk of plastic strain that is seen from turned axes has the turned stress", "", ConeLaws,
+                   PyramidLaws) {
   const SpaceTensor Q = checks::rotation<SpaceTensor>(0.8);
   const auto turned = [&](const Gradient<space>& H) { return gradient_part<space>(Q * in_space(H) * transpose(Q)); };
   const typename TestType::template Law<space> law(TestType::soil);
@@ -243,8 +231,8 @@ TEST_CASE("a rotation in space by 90 degrees turns the stress exactly, in any nu
   }
 }
 
-TEMPLATE_TEST_CASE("moduli in space are the derivative of the stress: yielding, opening and elastic", "", Cone,
-                   Pyramid) {
+TEMPLATE_TEST_CASE("moduli in space are the derivative of the stress: yielding, opening and elastic", "", ConeLaws,
+                   PyramidLaws) {
   const typename TestType::template Law<space> law(TestType::soil);
   for (const double size : {1e-5, 2e-3, 0.05}) {
     for (const double spread : {-1.0, 0.0, 1.0}) {
@@ -260,7 +248,7 @@ TEMPLATE_TEST_CASE("moduli in space are the derivative of the stress: yielding, 
       CHECK(checks::relative_distance(law.moduli(H, H, 0, now), exact) < 1e-6);  // rounding/d, and curvature
       const auto A = law.elastic_moduli(H, now);
       for (int a = 0; a < 9; ++a)
-        for (int b = 0; b < a; ++b) CHECK(A[9 * a + b] == Approx(A[9 * b + a]).margin(1e-9 * soil.E));
+        for (int b = 0; b < a; ++b) CHECK(A[9 * a + b] == Approx(A[9 * b + a]).margin(1e-9 * cone_soil.E));
     }
   }
 }

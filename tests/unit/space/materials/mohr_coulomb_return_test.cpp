@@ -11,13 +11,15 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
+#include "law_checks.hpp"
+
 namespace stillpoint {
 namespace {
 
+using checks::one_degree;
 using Eigen::Matrix3d, Eigen::Vector3d;
 
-constexpr double degree = 0.017453292519943295;
-constexpr IsotropicModuli elastic{2e7, 1e7};
+constexpr IsotropicModuli elastic_moduli{2e7, 1e7};
 
 struct Plane {
   Vector3d normal, flow;
@@ -41,8 +43,8 @@ std::vector<Plane> planes(double sin_phi, double sin_psi, double k, double tensi
 // Koiter: σ = x − C Σ Δγ_k n_k with Δγ_k ≥ 0, f_k = 0 for the active planes and f ≤ 0 for all.
 std::optional<Vector3d> with_active(const std::vector<Plane>& all, const std::vector<std::size_t>& active,
                                     const Vector3d& x, double scale) {
-  const double lambda = elastic.bulk - 2 * elastic.shear / 3;
-  const Matrix3d C = lambda * Matrix3d::Ones() + 2 * elastic.shear * Matrix3d::Identity();
+  const double lambda = elastic_moduli.bulk - 2 * elastic_moduli.shear / 3;
+  const Matrix3d C = lambda * Matrix3d::Ones() + 2 * elastic_moduli.shear * Matrix3d::Identity();
   const auto n = static_cast<Eigen::Index>(active.size());
   Eigen::MatrixXd A(n, n);
   Eigen::VectorXd f(n);
@@ -56,7 +58,7 @@ std::optional<Vector3d> with_active(const std::vector<Plane>& all, const std::ve
     const Eigen::FullPivLU<Eigen::MatrixXd> factors(A);
     if (!factors.isInvertible()) return std::nullopt;
     const Eigen::VectorXd multipliers = factors.solve(f);
-    if (multipliers.minCoeff() < -1e-12 * scale / elastic.shear) return std::nullopt;
+    if (multipliers.minCoeff() < -1e-12 * scale / elastic_moduli.shear) return std::nullopt;
     for (Eigen::Index i = 0; i < n; ++i) sigma -= multipliers[i] * (C * all[active[static_cast<std::size_t>(i)]].flow);
   }
   for (const Plane& plane : all)
@@ -91,7 +93,8 @@ TEST_CASE(
       Soil{1e4, 30, 30, none}, Soil{1e4, 30, 0, none}, Soil{1e4, 35, 10, none}, Soil{0, 35, 0, none},
       Soil{0, 30, 30, none}, Soil{1e4, 0, 0, none}, Soil{1e4, 0, 0, 5e3}, Soil{1e4, 0, 0, 0}, Soil{1e4, 30, 30, 5e3},
       Soil{1e4, 30, 5, 0}, Soil{1e4, 30, 0, 1.5e4}, Soil{1e4, 60, 20, 2e3}, Soil{1e4, 1, 1, 1e5});
-  const double sin_phi = std::sin(phi * degree), sin_psi = std::sin(psi * degree), k = c * std::cos(phi * degree);
+  const double sin_phi = std::sin(phi * one_degree), sin_psi = std::sin(psi * one_degree),
+               k = c * std::cos(phi * one_degree);
   const MohrCoulombStrength strength = MohrCoulombStrength::from(sin_phi, sin_psi, k, tension);
   const double cut = phi == 0 ? tension : strength.tension;
   const std::vector<Plane> all = planes(sin_phi, sin_psi, k, cut);
@@ -102,7 +105,7 @@ TEST_CASE(
     Vector3d x{stress(random), stress(random), stress(random)};
     if (n % 5 == 0) x[1] = x[0];  // equal ones, which a triaxial test has
     std::sort(x.data(), x.data() + 3, std::greater<>());
-    const Principal<double> found = returned(Principal<double>{x[0], x[1], x[2]}, strength, elastic);
+    const Principal<double> found = returned(Principal<double>{x[0], x[1], x[2]}, strength, elastic_moduli);
     const Vector3d right = by_enumeration(all, x, 6e4);
     CAPTURE(c, phi, psi, tension, x.transpose(), right.transpose(), found[0], found[1], found[2]);
     REQUIRE(right.allFinite());

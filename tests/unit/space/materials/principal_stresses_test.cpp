@@ -7,10 +7,13 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
+#include "space/materials/eigen_tensors.hpp"
+
 namespace stillpoint {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
+using test::matrix_of, test::tensor_of_matrix;
 
 Matrix3d random_rotation(std::mt19937& random) {
   std::normal_distribution<double> normal;
@@ -22,16 +25,6 @@ Matrix3d random_rotation(std::mt19937& random) {
 Matrix3d with_values(const Vector3d& values, const Matrix3d& axes) {
   const Matrix3d s = axes * values.asDiagonal() * axes.transpose();
   return (s + s.transpose()) / 2;
-}
-
-SpaceTensor tensor_of_matrix(const Matrix3d& s) {
-  return {s(0, 0), s(0, 1), s(0, 2), s(1, 0), s(1, 1), s(1, 2), s(2, 0), s(2, 1), s(2, 2)};
-}
-
-Matrix3d matrix_of(const SpaceTensor& s) {
-  Matrix3d matrix;
-  matrix << s.xx, s.xy, s.xz, s.yx, s.yy, s.yz, s.zx, s.zy, s.zz;
-  return matrix;
 }
 
 // Deviators of every kind: any, equal largest or least values, values that differ by down to the last digits.

@@ -25,10 +25,10 @@ using stillpoint::test::compiled_umat;
 
 namespace {
 
-constexpr double E = 1e4, nu = 0.3, strength = 20;
+constexpr double clay_E = 1e4, clay_nu = 0.3, clay_strength = 20;
 
-MaterialSpec material(const std::filesystem::path& library, std::vector<double> props,
-                      std::vector<std::string> statev = {}) {
+MaterialSpec umat_material(const std::filesystem::path& library, std::vector<double> props,
+                           std::vector<std::string> statev = {}) {
   MaterialSpec spec;
   spec.name = "clay";
   spec.law = "umat";
@@ -108,16 +108,20 @@ TEMPLATE_TEST_CASE_SIG("a UMAT in Fortran or C answers as the built-in law of it
                        "", ((StressState S), S), StressState::plane_strain, StressState::axisymmetric,
                        StressState::space) {
   const test::TemporaryFolder folder;
-  const DruckerPrager<S> elastic({.E = E, .nu = nu, .c = 1e12}), mises({.E = E, .nu = nu, .c = strength});
+  const DruckerPrager<S> elastic({.E = clay_E, .nu = clay_nu, .c = 1e12}),
+      mises({.E = clay_E, .nu = clay_nu, .c = clay_strength});
   constexpr double rounding = 1e-10;  // of 200 increments
-  CHECK(distance_along_a_walk<S>(*make_umat<S>(material(compiled_umat(folder, "elastic.f", "elastic"), {E, nu})),
-                                 elastic) < rounding);
+  CHECK(distance_along_a_walk<S>(
+            *make_umat<S>(umat_material(compiled_umat(folder, "elastic.f", "elastic"), {clay_E, clay_nu})), elastic) <
+        rounding);
   for (const char* source : {"von_mises.f", "von_mises.c"}) {
     INFO(source);
     const auto library = compiled_umat(folder, source, source);
-    CHECK(distance_along_a_walk<S>(*make_umat<S>(material(library, {E, nu, strength}, {"plastic_strain"})), mises) <
+    CHECK(distance_along_a_walk<S>(
+              *make_umat<S>(umat_material(library, {clay_E, clay_nu, clay_strength}, {"plastic_strain"})), mises) <
           rounding);
-    CHECK(distance_along_a_walk<S>(*make_umat<S>(material(library, {E, nu, 2 * strength}, {""})), mises) > 1e-3);
+    CHECK(distance_along_a_walk<S>(*make_umat<S>(umat_material(library, {clay_E, clay_nu, 2 * clay_strength}, {""})),
+                                   mises) > 1e-3);
   }
 }
 
@@ -129,8 +133,8 @@ TEMPLATE_TEST_CASE_SIG("a UMAT of Cam clay answers as the built-in law along 200
   for (const double OCR : {1.0, 1.5, 8.0}) {
     CAPTURE(OCR);
     const CamClayParameters clay{.M = 1.2, .lambda = 0.2, .kappa = 0.04, .nu = 0.3, .e0 = 1, .OCR = OCR};
-    const auto umat = make_umat<S>(
-        material(library, {clay.M, clay.lambda, clay.kappa, clay.nu, clay.e0, OCR}, {"pc", "void_ratio", "strain"}));
+    const auto umat = make_umat<S>(umat_material(library, {clay.M, clay.lambda, clay.kappa, clay.nu, clay.e0, OCR},
+                                                 {"pc", "void_ratio", "strain"}));
     constexpr double rounding = 1e-10, step = 2e-3;  // of 200 increments, which are in reach of the flow
     CHECK(distance_along_a_walk<S>(*umat, CamClay<S>(clay), step) < rounding);
     CamClayParameters other = clay;
@@ -145,8 +149,8 @@ TEMPLATE_TEST_CASE_SIG("the moduli of a UMAT are the derivative of its answer, e
   constexpr std::size_t n = gradient_components(S);
   const test::TemporaryFolder folder;
   const auto library = compiled_umat(folder, "von_mises.f", "von_mises");
-  for (const double k : {strength, 1e12}) {
-    const auto law = make_umat<S>(material(library, {E, nu, k}, {"plastic_strain"}));
+  for (const double k : {clay_strength, 1e12}) {
+    const auto law = make_umat<S>(umat_material(library, {clay_E, clay_nu, k}, {"plastic_strain"}));
     AnsweredPath<S> path(*law);
     RandomWalk<S> walk;
     for (int step = 0; step < 10; ++step) {
@@ -168,8 +172,8 @@ TEMPLATE_TEST_CASE_SIG("the moduli of a UMAT are the derivative of its answer, e
 TEMPLATE_TEST_CASE_SIG("the elastic moduli of a UMAT are those of the built-in law under the same stress", "",
                        ((StressState S), S), StressState::plane_strain, StressState::axisymmetric, StressState::space) {
   const test::TemporaryFolder folder;
-  const auto umat = make_umat<S>(material(compiled_umat(folder, "elastic.f", "elastic"), {E, nu}));
-  const DruckerPrager<S> law({.E = E, .nu = nu, .c = 1e12});
+  const auto umat = make_umat<S>(umat_material(compiled_umat(folder, "elastic.f", "elastic"), {clay_E, clay_nu}));
+  const DruckerPrager<S> law({.E = clay_E, .nu = clay_nu, .c = 1e12});
   Stress<S> stress{};
   stress[0] = -500, stress[1] = -900, stress[2] = -600, stress[3] = 200;
   AnsweredPath<S> path(*umat, stress);
@@ -183,7 +187,7 @@ TEMPLATE_TEST_CASE_SIG("the elastic moduli of a UMAT are those of the built-in l
 TEST_CASE("a rigid rotation turns the stress and the strain of a UMAT, and tells it the whole rotation") {
   constexpr StressState S = StressState::space;
   const test::TemporaryFolder folder;
-  const auto law = make_umat<S>(material(compiled_umat(folder, "elastic.f", "elastic"), {E, nu}));
+  const auto law = make_umat<S>(umat_material(compiled_umat(folder, "elastic.f", "elastic"), {clay_E, clay_nu}));
   const Stress<S> start{1, 2, 3, 4, 5, 6};
   AnsweredPath<S> path(*law, start);
   // By 90 degrees about z, in ten increments: x to y, y to −x.
@@ -246,7 +250,7 @@ TEST_CASE("a UMAT that asks for a smaller step, or that leaves, gives no number;
   const Gradient<S> small{1e-4, 0, 0, 0}, large{0.05, 0, 0, 0};
   for (const char* fault : {"SHORTENS", "LEAVES"}) {
     INFO(fault);
-    const auto law = make_umat<S>(material(
+    const auto law = make_umat<S>(umat_material(
         compiled_umat(folder, "faulty.c", fault, std::string("-D") + fault + " -Wl,--unresolved-symbols=ignore-all"),
         {}));
     AnsweredPath<S> path(*law);
@@ -266,7 +270,7 @@ TEST_CASE("what a UMAT keeps between calls is found: its calls take turns, or it
   const test::TemporaryFolder folder;
   const auto fault_of = [&](const std::string& name, const std::string& options) -> std::string {
     const auto law = make_umat<S>(
-        material(compiled_umat(folder, "faulty.c", name, options + " -Wl,--unresolved-symbols=ignore-all"), {1}));
+        umat_material(compiled_umat(folder, "faulty.c", name, options + " -Wl,--unresolved-symbols=ignore-all"), {1}));
     try {
       law->try_out(AnsweredPath<S>(*law).now.data());
     } catch (const std::domain_error& fault) {
@@ -290,7 +294,7 @@ TEST_CASE("what a UMAT keeps between calls is found: its calls take turns, or it
 TEST_CASE("a library without a UMAT is told apart from one that is missing, is none, or lacks something") {
   const test::TemporaryFolder folder;
   const auto fault_of = [&](const std::filesystem::path& library) -> std::string {
-    const auto fault = fault_of_umat(material(library, {}));
+    const auto fault = fault_of_umat(umat_material(library, {}));
     return fault ? std::string(fault->key) + ": " + fault->message : "";
   };
   const auto says = [](const std::string& text, const std::string& what) {
@@ -309,8 +313,8 @@ TEMPLATE_TEST_CASE_SIG("a UMAT is given the deformation, the rotation, the strai
                        "", ((StressState S), S), StressState::plane_strain, StressState::axisymmetric,
                        StressState::space) {
   const test::TemporaryFolder folder;
-  const auto law =
-      make_umat<S>(material(compiled_umat(folder, "recorder.c", "recorder"), {7, 8}, std::vector<std::string>(56, "")));
+  const auto law = make_umat<S>(
+      umat_material(compiled_umat(folder, "recorder.c", "recorder"), {7, 8}, std::vector<std::string>(56, "")));
   constexpr std::size_t tensor = stress_components(S);
   AnsweredPath<S> path(*law);
   law->place({1.5, 2.5, S == StressState::space ? 3.5 : 0}, 41, 0.25, path.now.data());
@@ -369,8 +373,8 @@ TEMPLATE_TEST_CASE_SIG("a UMAT is given the deformation, the rotation, the strai
 TEST_CASE("in space a UMAT is given the shears 12, 13 and 23 in this order, and its stresses are taken so") {
   constexpr StressState S = StressState::space;
   const test::TemporaryFolder folder;
-  const auto law =
-      make_umat<S>(material(compiled_umat(folder, "recorder.c", "recorder"), {7, 8}, std::vector<std::string>(56, "")));
+  const auto law = make_umat<S>(
+      umat_material(compiled_umat(folder, "recorder.c", "recorder"), {7, 8}, std::vector<std::string>(56, "")));
   constexpr std::array<std::size_t, 3> of_gradient{1, 2, 5}, of_stress{3, 5, 4};  // xy, xz, yz
   for (std::size_t shear = 0; shear < 3; ++shear) {
     CAPTURE(shear);

@@ -30,17 +30,17 @@ struct Law : Undrained<MohrCoulomb<S>> {
 };
 
 template <StressState S>
-using Path = test::HistoryPath<Law<S>, Saturated<S>>;
+using SaturatedPath = test::HistoryPath<Law<S>, Saturated<S>>;
 
 template <StressState S>
-double pore_pressure(const Path<S>& path) {
+double pore_pressure(const SaturatedPath<S>& path) {
   return path.now.back();
 }
 
 }  // namespace
 
 TEST_CASE("water bears Skempton's share of an isotropic pressure") {
-  Path<axisymmetric> path({.soil = {.E = 12e6, .nu = 0.3, .c = 1e9}});
+  SaturatedPath<axisymmetric> path({.soil = {.E = 12e6, .nu = 0.3, .c = 1e9}});
   path.go({-1e-5, 0, 0, -1e-5, -1e-5}, 10);
   const Stress<axisymmetric> total = path.stress();
   CHECK(pore_pressure(path) / -total[0] == Approx(0.9981851179673321).epsilon(1e-6));  // the strain's second order
@@ -49,7 +49,7 @@ TEST_CASE("water bears Skempton's share of an isotropic pressure") {
 }
 
 TEST_CASE("undrained shear in the plane ends at s_u = c cos phi + p0 sin phi") {
-  Path<plane_strain> path({}, {-1e5, -1e5, -1e5, 0});
+  SaturatedPath<plane_strain> path({}, {-1e5, -1e5, -1e5, 0});
   path.go({0, 0.05, 0, 0}, 200);
   const Stress<plane_strain> total = path.stress();
   CHECK(std::hypot(total[3], (total[0] - total[1]) / 2) == Approx(54330.12701892218).epsilon(1e-6));
@@ -58,7 +58,7 @@ TEST_CASE("undrained shear in the plane ends at s_u = c cos phi + p0 sin phi") {
 TEST_CASE("undrained triaxial compression ends at the strength and the pore pressure of incompressible water") {
   // q = 2 (c cos φ + p₀ sin φ)/(1 − sin φ/3), Δp_w = (q/3 at constant total σ₃); water 1e4 times as stiff as the
   // skeleton
-  Path<axisymmetric> path({.stiffness = 1e11}, {-1e5, -1e5, -1e5, 0});
+  SaturatedPath<axisymmetric> path({.stiffness = 1e11}, {-1e5, -1e5, -1e5, 0});
   double across = 0;
   for (int k = 1; k <= 40; ++k) {
     const double axial = std::expm1(-0.04 * k / 40);
@@ -103,7 +103,7 @@ TEST_CASE("the pore pressure is that of the volume, on any path and in any numbe
   const Gradient<plane_strain> there = {-0.02, 0.3, -0.1, 0.01};
   const double J = (1 + there[0]) * (1 + there[3]) - there[1] * there[2];
   for (const int steps : {1, 7, 100}) {
-    Path<plane_strain> path({}, {-1e5, -1e5, -1e5, 0});
+    SaturatedPath<plane_strain> path({}, {-1e5, -1e5, -1e5, 0});
     path.go({0.01, 0, 0, -0.02}, steps);
     path.go(there, steps);
     CHECK(pore_pressure(path) == Approx(-water * std::log(J)).epsilon(1e-11));

@@ -18,7 +18,7 @@ using stillpoint::test::free_soil;
 
 namespace {
 
-Simulation advanced(const Scene& scene, double t_end, int threads = 1) {
+Simulation advanced_to(const Scene& scene, double t_end, int threads = 1) {
   Simulation simulation(scene, {.threads = threads, .records = false, .stops = false});
   REQUIRE(simulation.run_until(t_end) == RunStatus::running);
   return simulation;
@@ -42,7 +42,7 @@ TEST_CASE("bodies that come to lie against each other are not strained by the wa
                        "phase.deformation=" + deformation});
   };
   for (const double t : {0.2, 0.3}) {
-    const Simulation fitted = advanced(blocks("positions"), t), multiplied = advanced(blocks("accumulated"), t);
+    const Simulation fitted = advanced_to(blocks("positions"), t), multiplied = advanced_to(blocks("accumulated"), t);
     REQUIRE(fitted.phases() > 5);
     const double of_fitted = largest_magnitude(stress(fitted)), expected = largest_magnitude(stress(multiplied));
     CAPTURE(t, of_fitted, expected);
@@ -53,7 +53,7 @@ TEST_CASE("bodies that come to lie against each other are not strained by the wa
 TEST_CASE("the fit of the deformation gives the same bits for any number of threads") {
   const Scene scene = free_block({"grid={min=[0, 0], max=[2.25, 1], cells=[108, 48], basis='quadratic'}",
                                   "initial.v=['y', '-x']", "integrator.step_fraction=0.5"});
-  const Simulation one = advanced(scene, 0.02), three = advanced(scene, 0.02, 3);
+  const Simulation one = advanced_to(scene, 0.02), three = advanced_to(scene, 0.02, 3);
   REQUIRE(one.phases() > 5);
   CHECK(stress(one) == stress(three));
 }

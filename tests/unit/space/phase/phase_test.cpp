@@ -15,7 +15,7 @@ using namespace stillpoint;
 
 namespace {
 
-const std::vector<std::string> bases{"linear", "quadratic", "cubic", "hermite"};
+const std::vector<std::string> basis_names{"linear", "quadratic", "cubic", "hermite"};
 
 // The bar with another basis and law, and four points a cell so that every basis has a mass.
 Scene bar_with(const std::string& basis, const std::string& law, const std::string& state = "uniaxial-stress") {
@@ -26,7 +26,7 @@ Scene bar_with(const std::string& basis, const std::string& law, const std::stri
 }  // namespace
 
 TEST_CASE("the internal force is repeatable to the bit") {
-  for (const std::string& basis : bases) {
+  for (const std::string& basis : basis_names) {
     const auto phase = make_phase(bar_with(basis, "neo-hookean"));
     const auto u = test::random_values(phase->size(), 0.1);
     std::vector<double> first(phase->size()), second(phase->size()), other(phase->size());
@@ -39,7 +39,7 @@ TEST_CASE("the internal force is repeatable to the bit") {
 }
 
 TEST_CASE("the tangent is the derivative of the internal force, applied and assembled") {
-  for (const std::string& basis : bases) {
+  for (const std::string& basis : basis_names) {
     for (const std::string law : {"linear-elastic", "neo-hookean"}) {
       const auto phase = make_phase(bar_with(basis, law));
       const std::size_t n = phase->size();
@@ -72,7 +72,7 @@ TEST_CASE("a collapsed material point makes the trial inadmissible instead of a 
 }
 
 TEST_CASE("a uniform strain gives its stress at every point and forces at the ends only (patch test)") {
-  for (const std::string& basis : bases) {
+  for (const std::string& basis : basis_names) {
     const auto phase = make_phase(scenes::bar({"grid.basis=" + basis, "body.points_per_cell=4", "initial.u=0.01*x"}));
     const auto u = phase->initial_displacement(0);
     std::vector<double> stress(phase->points());
@@ -87,7 +87,7 @@ TEST_CASE("a uniform strain gives its stress at every point and forces at the en
 }
 
 TEST_CASE("mass, consistent or lumped, in any basis, is the mass of the body") {
-  for (const std::string& basis : bases) {
+  for (const std::string& basis : basis_names) {
     for (const std::string kind : {"consistent", "lumped"}) {
       Scene scene =
           scenes::bar({"grid.basis=" + basis, "mass.kind=" + kind, "body.points_per_cell=4", "material.bar.rho=2.5"});
@@ -108,7 +108,7 @@ TEST_CASE("mass, consistent or lumped, in any basis, is the mass of the body") {
 }
 
 TEST_CASE("rigid translation of a free body gives no internal force") {
-  for (const std::string& basis : bases) {
+  for (const std::string& basis : basis_names) {
     Scene scene = bar_with(basis, "neo-hookean");
     scene.supports.clear();
     scene.initial_u = {Expression(0.7)};

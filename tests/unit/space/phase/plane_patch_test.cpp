@@ -18,7 +18,7 @@ using Catch::Matchers::WithinAbs;
 namespace {
 
 /// The block of problems/block.toml, held and loaded by nothing.
-Scene free_block(std::vector<std::string> overrides = {}) {
+Scene patch_block(std::vector<std::string> overrides = {}) {
   overrides.insert(overrides.end(), {"support=[]", "traction=[]", "probe=[]", "damping.c=1.0"});
   return scenes::load("block", overrides);
 }
@@ -48,7 +48,7 @@ void pull_all_faces(Scene& scene, const std::array<double, 4>& P) {
   }
 }
 
-constexpr Matrix stretched_and_sheared{0.2, 0.15, -0.05, -0.1};
+constexpr Matrix stretched_square{0.2, 0.15, -0.05, -0.1};
 
 /// P of a law in plane strain (E = 1, ν = 0.3).
 std::array<double, 4> uniform_stress(const std::string& law, const Matrix& A) {
@@ -63,14 +63,14 @@ struct Placed {
   std::string basis, points;  // a cell
 };
 // As many points as each basis needs: for its mass to be definite, and for ∇N, of degree p, to be integrated.
-const std::vector<Placed> bases = {{"linear", "4"}, {"quadratic", "9"}, {"cubic", "16"}, {"hermite", "25"}};
+const std::vector<Placed> placed_bases = {{"linear", "4"}, {"quadratic", "9"}, {"cubic", "16"}, {"hermite", "25"}};
 
 /// Largest |F − R| over every function, of a block under the tractions that its uniform strain needs.
 double patch_residual(const std::string& law, std::vector<std::string> overrides) {
   overrides.push_back("material.rubber.law=" + law);
-  Scene scene = free_block(overrides);
-  deform(scene, stretched_and_sheared);
-  const auto P = uniform_stress(law, stretched_and_sheared);
+  Scene scene = patch_block(overrides);
+  deform(scene, stretched_square);
+  const auto P = uniform_stress(law, stretched_square);
   pull_all_faces(scene, P);
   const auto phase = make_phase(scene);
   const auto u = phase->initial_displacement(0);
@@ -86,7 +86,7 @@ std::string with_kind(const std::string& basis) {
 }  // namespace
 
 TEST_CASE("a uniform strain is in balance with its tractions at every node, boundary included (patch test)") {
-  for (const auto& [basis, points] : bases) {
+  for (const auto& [basis, points] : placed_bases) {
     for (const std::string law : {"linear-elastic", "neo-hookean", "hencky"}) {
       for (const std::string placement : {"gauss", "uniform"}) {
         for (const std::string dilatation : {"points", "cells"}) {
@@ -122,8 +122,8 @@ TEST_CASE("forces of bilinear cells are those of the assembled stiffness, for an
     for (const std::string points : {"1", "4", "9", "25", "169"}) {
       CAPTURE(state, points);
       const auto phase = make_phase(
-          free_block({"material.rubber.law=linear-elastic", "body.state=" + state, "grid.basis=linear",
-                      "mass.kind=lumped", "body.jitter=0.3", "body.volumes=equal", "body.points_per_cell=" + points}));
+          patch_block({"material.rubber.law=linear-elastic", "body.state=" + state, "grid.basis=linear",
+                       "mass.kind=lumped", "body.jitter=0.3", "body.volumes=equal", "body.points_per_cell=" + points}));
       std::vector<double> u(phase->size());
       for (std::size_t i = 0; i < u.size(); ++i) u[i] = std::sin(static_cast<double>(i * i + 1));
       const std::vector<double> R = statics::internal_force(*phase, u);
@@ -144,8 +144,8 @@ TEST_CASE("a rotation by a long step predicts no stress, and with that the body 
       for (const auto& [basis, points] : {Placed{"linear", "4"}, {"quadratic", "9"}}) {
         CAPTURE(law, state, basis);
         const auto field = [&, basis = basis, points = points](const Matrix& A) {
-          Scene scene = free_block({"material.rubber.law=" + law, "body.state=" + state, "grid.basis=" + basis,
-                                    "body.points_per_cell=" + points});
+          Scene scene = patch_block({"material.rubber.law=" + law, "body.state=" + state, "grid.basis=" + basis,
+                                     "body.points_per_cell=" + points});
           deform(scene, A);
           auto phase = make_phase(scene);
           auto u = phase->initial_displacement(0);
@@ -176,7 +176,7 @@ TEST_CASE("a free body that is moved and turned as a whole, by any angle, feels 
                                                 "grid.basis=" + basis, "body.points_per_cell=" + points};
           if (law == "drucker-prager")
             overrides.insert(overrides.end(), {"material.rubber.phi=35", "phase.max_motion=none"});
-          Scene scene = free_block(overrides);
+          Scene scene = patch_block(overrides);
           deform(scene, rotation(angle));
           for (Expression& u : scene.initial_u) u = Expression(u.text() + " + 0.7", {}, "xy");
           const auto phase = make_phase(scene);
@@ -189,7 +189,7 @@ TEST_CASE("a free body that is moved and turned as a whole, by any angle, feels 
     }
   }
   // Small strain takes a rotation for a strain: e = (cos 30° − 1) I.
-  Scene small = free_block({"material.rubber.law=linear-elastic"});
+  Scene small = patch_block({"material.rubber.law=linear-elastic"});
   deform(small, rotation(30));
   const auto phase = make_phase(small);
   CHECK(largest_magnitude(statics::internal_force(*phase, phase->initial_displacement(0))) > 0.01);
@@ -198,8 +198,8 @@ TEST_CASE("a free body that is moved and turned as a whole, by any angle, feels 
 TEST_CASE("the nodal forces of stressed soil turn with the body, in one increment or in three") {
   // P = det f σ f⁻ᵀ with σ = Q σ₀ Qᵀ and f = Q: R(Q x − x) = Q R(0).
   Scene scene =
-      free_block({"material.rubber.law=drucker-prager", "material.rubber.phi=35", "material.rubber.c=0.1",
-                  "phase.max_motion=none", "body_force.value=[0, -0.1]", "initial.geostatic={K0=0.5, surface=1}"});
+      patch_block({"material.rubber.law=drucker-prager", "material.rubber.phi=35", "material.rubber.c=0.1",
+                   "phase.max_motion=none", "body_force.value=[0, -0.1]", "initial.geostatic={K0=0.5, surface=1}"});
   const auto R0 = [&] {
     const auto phase = make_phase(scene);
     return statics::internal_force(*phase, std::vector<double>(phase->size(), 0.0));
@@ -230,7 +230,7 @@ TEST_CASE("the nodal forces of stressed soil turn with the body, in one incremen
 TEST_CASE("a pressure follows the face that it acts on, and a dead traction keeps its direction") {
   // On the right face, of length 1: −p N turned by 90° is (0, −p), and along a face that is stretched it grows with it.
   const auto total = [](bool follows, const Matrix& A) {
-    Scene scene = free_block();
+    Scene scene = patch_block();
     scene.tractions.push_back({.face = Face::right, .value = {}, .pressure = {}});
     if (follows) {
       scene.tractions[0].pressure = Expression(0.3);
@@ -262,10 +262,10 @@ TEST_CASE("a pressure follows the face that it acts on, and a dead traction keep
 
 TEST_CASE("a pressure round a whole body is in balance at any deformation that is uniform") {
   // Closed surface: Σ F = 0, and no work is done on a rigid rotation.
-  Scene scene = free_block();
+  Scene scene = patch_block();
   for (const Face face : {Face::left, Face::right, Face::bottom, Face::top})
     scene.tractions.push_back({.face = face, .value = {}, .pressure = Expression(0.3)});
-  deform(scene, stretched_and_sheared);
+  deform(scene, stretched_square);
   const auto phase = make_phase(scene);
   const auto u = phase->initial_displacement(0);
   std::vector<double> F(phase->size());

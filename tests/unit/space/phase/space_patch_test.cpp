@@ -21,21 +21,21 @@ namespace {
 
 using Tensor = Eigen::Matrix3d;
 const std::vector<std::string> elastic_laws = {"linear-elastic", "neo-hookean", "hencky"};
-struct Way {
+struct Filling {
   const char *basis, *points, *placed, *dilatation;
 };
 // With as many points as integrate the gradients of the basis exactly.
-const Way ways[] = {{"linear", "8", "body.placement=uniform", "points"},
-                    {"linear", "8", "body.placement=gauss", "points"},
-                    {"linear", "8", "body.jitter=0.3", "points"},
-                    {"linear", "8", "body.placement=uniform", "cells"},
-                    {"linear", "8", "body.jitter=0.3", "cells"},
-                    {"quadratic", "27", "body.placement=uniform", "points"},
-                    {"quadratic", "8", "body.placement=gauss", "points"},
-                    {"quadratic", "27", "body.placement=gauss", "cells"},
-                    {"quadratic", "27", "body.placement=gauss", "splines"},
-                    {"cubic", "64", "body.placement=gauss", "points"},
-                    {"cubic", "64", "body.placement=gauss", "splines"}};
+const Filling fillings[] = {{"linear", "8", "body.placement=uniform", "points"},
+                            {"linear", "8", "body.placement=gauss", "points"},
+                            {"linear", "8", "body.jitter=0.3", "points"},
+                            {"linear", "8", "body.placement=uniform", "cells"},
+                            {"linear", "8", "body.jitter=0.3", "cells"},
+                            {"quadratic", "27", "body.placement=uniform", "points"},
+                            {"quadratic", "8", "body.placement=gauss", "points"},
+                            {"quadratic", "27", "body.placement=gauss", "cells"},
+                            {"quadratic", "27", "body.placement=gauss", "splines"},
+                            {"cubic", "64", "body.placement=gauss", "points"},
+                            {"cubic", "64", "body.placement=gauss", "splines"}};
 constexpr std::array faces = {Face::left, Face::right, Face::bottom, Face::top, Face::back, Face::front};
 
 /// A box of 3 × 2 × 4 cells with sides of 0.5, 0.6 and 0.2, in a grid that ends with it; nothing holds or loads it.
@@ -67,7 +67,7 @@ void deform(Scene& scene, const Tensor& A) {
                                  Constants{}, "xyz");
 }
 
-const Tensor stretched_and_sheared = (Tensor() << 0.2, 0.15, -0.1, -0.05, -0.1, 0.12, 0.08, -0.07, 0.1).finished();
+const Tensor stretched_box = (Tensor() << 0.2, 0.15, -0.1, -0.05, -0.1, 0.12, 0.08, -0.07, 0.1).finished();
 
 /// P of a law in space (E = 1, ν = 0.3).
 Tensor uniform_stress(const std::string& law, const Tensor& A) {
@@ -96,13 +96,13 @@ void pull_all_faces(Scene& scene, const Tensor& P) {
 
 TEST_CASE("a uniform strain in space is in balance with its tractions at every node, boundary included (patch test)") {
   for (const std::string& law : elastic_laws) {
-    for (const auto& [basis, points, placed, dilatation] : ways) {
+    for (const auto& [basis, points, placed, dilatation] : fillings) {
       CAPTURE(law, basis, points, placed, dilatation);
       Scene scene =
           free_box({"material.stuff.law=" + law, placed, std::string("grid.basis=") + basis,
                     std::string("body.points_per_cell=") + points, std::string("phase.dilatation=") + dilatation});
-      deform(scene, stretched_and_sheared);
-      const Tensor P = uniform_stress(law, stretched_and_sheared);
+      deform(scene, stretched_box);
+      const Tensor P = uniform_stress(law, stretched_box);
       pull_all_faces(scene, P);
       const auto phase = make_phase(scene);
       const auto u = phase->initial_displacement(0);
@@ -133,7 +133,7 @@ TEST_CASE("a free body in space that is moved and turned as a whole, by any angl
 TEST_CASE("supports that move the faces of a box by a linear field strain it uniformly") {
   for (const std::string& law : elastic_laws) {
     CAPTURE(law);
-    const Tensor A = stretched_and_sheared / 4;
+    const Tensor A = stretched_box / 4;
     Scene scene = free_box({"material.stuff.law=" + law, "damping.strategy=auto", "stop.residual=1e-11"});
     for (const Face face : faces) {
       for (int i = 0; i < 3; ++i) {
@@ -183,7 +183,7 @@ TEST_CASE("K in space is the derivative of R, for every law and with a pressure 
     for (const std::string dilatation : {"points", "cells"}) {
       CAPTURE(law, dilatation);
       Scene scene = free_box({"material.stuff.law=" + law, "phase.dilatation=" + dilatation});
-      deform(scene, stretched_and_sheared);
+      deform(scene, stretched_box);
       scene.tractions.push_back({.face = Face::front, .value = {}, .pressure = Expression(0.1)});
       const auto phase = make_phase(scene);
       std::vector<double> u = phase->initial_displacement(0), du(u.size());

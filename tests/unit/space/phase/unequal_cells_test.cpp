@@ -24,7 +24,7 @@ namespace {
 const std::vector<std::string> kPieces = {"[[0, 0.3, 4], [0.3, 0.8, 3, 2.5], [0.8, 1, 1]]",
                                           "[[0, 0.5, 3, 0.4], [0.5, 1, 2]]", "[[0, 0.6, 2, 3], [0.6, 1, 1]]"};
 
-struct Way {
+struct BasisAndPoints {
   std::string basis, points;
 };
 
@@ -56,8 +56,8 @@ Scene pulled(const std::string& state, const std::string& basis, const std::stri
 }  // namespace
 
 TEST_CASE("in unequal cells a uniform stress is found to rounding: in the plane, in rings and in space") {
-  const std::vector<Way> in_plane = {{"linear", "4"}, {"quadratic", "9"}, {"cubic", "16"}};
-  const std::vector<Way> in_space = {{"linear", "8"}, {"quadratic", "27"}};
+  const std::vector<BasisAndPoints> in_plane = {{"linear", "4"}, {"quadratic", "9"}, {"cubic", "16"}};
+  const std::vector<BasisAndPoints> in_space = {{"linear", "8"}, {"quadratic", "27"}};
   for (const std::string state : {"plane-strain", "axisymmetric", "space"}) {
     for (const auto& [basis, points] : state == "space" ? in_space : in_plane) {
       CAPTURE(state, basis);

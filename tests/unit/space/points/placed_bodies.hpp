@@ -1,6 +1,8 @@
 // Bodies placed on a grid: boxes, polygons and files of points.
 #pragma once
 
+#include <stillpoint/scene.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
@@ -10,6 +12,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "space/grid/scene_grid.hpp"
+#include "space/points/make_body.hpp"
 #include "space/points/material_points.hpp"
 
 namespace stillpoint::test {
@@ -49,6 +53,11 @@ inline BodySpec from_file(const std::filesystem::path& file) {
 inline MaterialPoints<2> place(const BodySpec& body, StressState state = StressState::plane_strain,
                                double density = 1) {
   return place_body<2>(body, kGrid, density, state).points;
+}
+
+/// With domains of its points, in the grid of the start.
+inline Body<Kinematics::plane> body_of(const Scene& scene) {
+  return make_body<Kinematics::plane>(scene, grid_at<2>(scene, 0), true);
 }
 
 inline double volume_of(const MaterialPoints<2>& points) {

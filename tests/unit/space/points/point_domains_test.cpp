@@ -10,18 +10,15 @@
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/point_weights.hpp"
 #include "space/points/domain_halving.hpp"
-#include "space/points/make_body.hpp"
+#include "space/points/placed_bodies.hpp"
 
 using namespace stillpoint;
 using Catch::Contains;
+using stillpoint::test::body_of;
 using stillpoint::test::free_block;
 using stillpoint::test::free_soil;
 
 namespace {
-
-Body<Kinematics::plane> body_of(const Scene& scene) {
-  return make_body<Kinematics::plane>(scene, grid_at<2>(scene, 0), true);
-}
 
 // A smooth map that is not affine and takes no domain outside the grid.
 Point<2> bent(const Point<2>& x) {

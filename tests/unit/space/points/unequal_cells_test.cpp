@@ -14,10 +14,11 @@
 #include "space/grid/scene_grid.hpp"
 #include "space/kernels/point_weights.hpp"
 #include "space/points/domain_halving.hpp"
-#include "space/points/make_body.hpp"
 #include "space/points/nearest_point.hpp"
+#include "space/points/placed_bodies.hpp"
 
 using namespace stillpoint;
+using stillpoint::test::body_of;
 using stillpoint::test::free_block;
 
 namespace {
@@ -27,10 +28,6 @@ Scene block_in_unequal_cells(std::vector<std::string> overrides = {}) {
   overrides.insert(overrides.begin(), {"grid.x=[[0, 2, 4], [2, 4, 20]]", "grid.y=[[0, 3, 10, 6]]",
                                        "phase.quadrature=domains", "damping.strategy=cundall"});
   return free_block(overrides);
-}
-
-Body<Kinematics::plane> body_of(const Scene& scene) {
-  return make_body<Kinematics::plane>(scene, grid_at<2>(scene, 0), true);
 }
 
 }  // namespace
