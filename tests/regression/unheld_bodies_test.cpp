@@ -128,6 +128,19 @@ TEST_CASE("a block that its load lifts off a base moves away, and one that falls
   CHECK(run_text(above_base).status == RunStatus::equilibrium);
 }
 
+TEST_CASE(
+    "a body that falls is told to do so wherever its border lies in its cells, as where functions follow others") {
+  const std::string below_a_roof =
+      "dim = 2\n[constants]\nover = 0\n[grid]\nmin = [0, 0]\nmax = [4, 4]\ncells = [16, 16]\n"
+      "[[body]]\nname = 'block'\nmin = ['1-over', 1]\nmax = ['2+over', 2]\nmaterial = 'm'\nplacement = 'gauss'\n"
+      "[[rigid]]\nname = 'roof'\nmin = [0.5, 3]\nmax = [2.5, 3.5]\n[body_force]\nvalue = [0, -10]\n" +
+      block_rubber + by_auto;
+  for (const char* over : {"constants.over=0", "constants.over=1e-5", "constants.over=1e-3", "constants.over=0.02"}) {
+    CAPTURE(over);
+    check_moves_away(run_text(below_a_roof, {over}), "'block'", "y");
+  }
+}
+
 TEST_CASE("a free rigid body with nothing on its way is told to move away, and its displacement stays a length") {
   const std::string free_box =
       "dim = 2\n[constants]\ng = 10\n[grid]\nmin = [0, 0]\nmax = [4, 3]\ncells = [16, 12]\n"

@@ -220,6 +220,7 @@ class PassedBodies : public Watcher {
     if (!run.scene.may_touch()) return found;  // bodies without a contact are bonded
     const LagrangianPhase& phase = *run.model.phase;
     const ConstVec u = run.motion->u();
+    if (std::string fault = fault_of_turn(phase, run.t, u); !fault.empty()) found.faults.push_back(std::move(fault));
     if (!run.scene.contacts.empty())
       for (const Overlap& overlap : overlaps(run.scene, phase, run.t, u))
         found.faults.push_back(described(run.scene, overlap));
@@ -227,7 +228,6 @@ class PassedBodies : public Watcher {
       if (is_worth_a_note(intrusion))
         (is_grave(intrusion) ? found.faults : found.notes).push_back(described(run.scene, intrusion));
     }
-    if (std::string fault = fault_of_turn(phase, run.t, u); !fault.empty()) found.faults.push_back(std::move(fault));
     return found;
   }
 };
