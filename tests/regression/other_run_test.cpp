@@ -40,14 +40,13 @@ TEST_CASE("a run that begins with the points of another one at rest is at rest, 
                                                  {"0.01", "domains"}}) {
       if (law == "law=linear-elastic" && max_motion == "0.01") continue;  // its points do not move
       CAPTURE(law, max_motion, quadrature);
-      std::vector<std::string> set =
-          with(column_of(law), {"material.fill.nu=0.3", "phase.quadrature=" + quadrature});
+      std::vector<std::string> set = with(column_of(law), {"material.fill.nu=0.3", "phase.quadrature=" + quadrature});
       if (law == "law=drucker-prager") set.push_back("material.fill.c=1e6");
       const test::TemporaryFolder folder;
       const std::vector<std::string> first =
-          max_motion == "'none'" ? set
-                                 : with(set, {"solve.method=relaxation", "stop.residual=1e-9",
-                                              "phase.max_motion=" + max_motion});
+          max_motion == "'none'"
+              ? set
+              : with(set, {"solve.method=relaxation", "stop.residual=1e-9", "phase.max_motion=" + max_motion});
       const std::string from = "initial.from=" + leaves(folder, first).string();
       const Summary before = run(scenes::load("ladder/lifts", first));
       const Summary after = run(scenes::load("ladder/lifts", with(set, {from, "stop.residual=1e-9"})));
@@ -81,10 +80,10 @@ TEST_CASE("points do not become domains, nor domains points, from one run to ano
   const std::string from = "initial.from=" + leaves(folder, with(set, {"phase.quadrature=domains"})).string();
   CHECK_THROWS_WITH(run(scenes::load("ladder/lifts", with(set, {from, "phase.quadrature=points"}))),
                     Catch::Contains("the points of the other run represent domains, and those of this scene do not"));
-  CHECK_THROWS_WITH(scenes::load("ladder/lifts", with(set, {from, "phase.quadrature=domains",
-                                                            "phase.deformation=accumulated",
-                                                            "initial.displacements=zero"})),
-                    Catch::Contains("initial.displacements: domains remember their displacements by their corners"));
+  CHECK_THROWS_WITH(
+      scenes::load("ladder/lifts", with(set, {from, "phase.quadrature=domains", "phase.deformation=accumulated",
+                                              "initial.displacements=zero"})),
+      Catch::Contains("initial.displacements: domains remember their displacements by their corners"));
 }
 
 TEST_CASE("a checkpoint that is none, or of other bodies, is refused where the scene names it") {

@@ -78,10 +78,11 @@ TEST_CASE("functions that hardly reach a body that is held make no neutral equil
 TEST_CASE("a body in phases that nothing holds is in neutral equilibrium, whatever hardly reaches it") {
   for (const char* basis : {"linear", "quadratic", "cubic"}) {
     CAPTURE(basis);
-    const Summary s = run_text(
-        soft_cantilever, {std::string("grid.basis=") + basis, "support=[]", "body[0].min=[1, 0]", "body_force.value=[0, 0]",
-                     "traction=[{line=[[1, 0], [1, 1]], value=[-20, 0]}, {line=[[4, 0], [4, 1]], "
-                     "value=[20, 0]}]"});
+    const Summary s =
+        run_text(soft_cantilever,
+                 {std::string("grid.basis=") + basis, "support=[]", "body[0].min=[1, 0]", "body_force.value=[0, 0]",
+                  "traction=[{line=[[1, 0], [1, 1]], value=[-20, 0]}, {line=[[4, 0], [4, 1]], "
+                  "value=[20, 0]}]"});
     REQUIRE(s.status == RunStatus::equilibrium);
     CHECK(says_neutral(s));
   }

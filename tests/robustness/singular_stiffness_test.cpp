@@ -46,7 +46,7 @@ fields = ["u.y"]
 )";
 
 const std::vector<std::string> ways_to_rest = {"solve.method=newton", "solve.method=newton-cg", "solve.method=cg",
-                                       "solve.method=lbfgs", "damping.strategy=auto"};
+                                               "solve.method=lbfgs", "damping.strategy=auto"};
 
 }  // namespace
 

@@ -54,9 +54,9 @@ fields = ["u.y", "stress.xx"]
                      30 * load, way, space ? ", 0.6" : "");
 }
 
-const std::vector<std::string> tables_of_ways = {"[solve]\nmethod = \"newton\"",      "[solve]\nmethod = \"cg\"",
-                                       "[solve]\nmethod = \"lbfgs\"",       "[damping]\nstrategy = \"auto\"",
-                                       "[damping]\nstrategy = \"viscous\"", "[damping]\nstrategy = \"kinetic\""};
+const std::vector<std::string> tables_of_ways = {
+    "[solve]\nmethod = \"newton\"",   "[solve]\nmethod = \"cg\"",          "[solve]\nmethod = \"lbfgs\"",
+    "[damping]\nstrategy = \"auto\"", "[damping]\nstrategy = \"viscous\"", "[damping]\nstrategy = \"kinetic\""};
 
 }  // namespace
 
