@@ -42,18 +42,26 @@ std::vector<BorderPiece<K>> moved_pieces(const ContactSurface<K>& surface, const
 }
 
 template <Kinematics K>
-FacetSearch<K>::FacetSearch(const ContactSurface<K>& surface)
-    : FacetSearch(surface.patches(), moved_pieces(surface, nullptr)) {}
+FacetSearch<K>::FacetSearch(const ContactSurface<K>& surface) : facets_(surface.size()) {
+  list(surface.patches(), [&](std::size_t s) -> const BorderPiece<K>& { return surface.piece(s); });
+}
 
 template <Kinematics K>
 FacetSearch<K>::FacetSearch(std::span<const SurfacePatch> patches, const std::vector<BorderPiece<K>>& pieces)
     : facets_(pieces.size()) {
+  list(patches, [&](std::size_t s) -> const BorderPiece<K>& { return pieces[s]; });
+}
+
+template <Kinematics K>
+template <class PieceAt>
+void FacetSearch<K>::list(std::span<const SurfacePatch> patches, const PieceAt& piece_at) {
   Point<dim> least, most;
   least.fill(std::numeric_limits<double>::infinity());
   most.fill(-std::numeric_limits<double>::infinity());
   for (const SurfacePatch& patch : patches) {
     for (std::size_t s = patch.begin; s < patch.end; ++s) {
-      facets_[s] = {pieces[s].place(), pieces[s].normal(), extent(pieces[s], patch.depth), patch.cell};
+      const BorderPiece<K>& piece = piece_at(s);
+      facets_[s] = {piece.place(), piece.normal(), extent(piece, patch.depth), patch.cell};
       sorted_.push_back({0, s});
       for (std::size_t d = 0; d < dim; ++d) {
         least[d] = std::min(least[d], facets_[s].place[d]);

@@ -48,6 +48,8 @@ class FacetSearch {
     std::size_t piece;
   };
 
+  template <class PieceAt>
+  void list(std::span<const SurfacePatch> patches, const PieceAt& piece_at);
   template <class Counts>
   std::size_t nearest(const Point<dim>& x, const Counts& counts) const;
   bool goes_on(std::size_t piece, const Point<dim>& towards) const;
