@@ -86,7 +86,7 @@ class CriticallyDampedMotion {
         largest = std::max(largest, residual);
       }
       if (phase_.contact()) {
-        phase_.control().update_multipliers(t_, u());
+        phase_.control().update_multipliers(t_, u(), /*evenly=*/false);
         stepper_->take_changed_forces(t_);
       }
       periods_.push_back({sum / steps_, distance(u(), start_)});

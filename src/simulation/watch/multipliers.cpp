@@ -8,7 +8,8 @@
 // residual: each takes some nine tenths of what is wrong with the forces. At the edge of a contact a patch may open and
 // close from one update to the next; once they come no nearer, there are no more. Under loads that still change they
 // follow once in a while, and after a longer while even if the body is not near balance: in a motion that is never
-// quiet the penalty alone would press else, and give way.
+// quiet the penalty alone would press else, and give way. There is no end to those, and they are taken evenly, lest
+// pressures from patch to patch grow that the body does not feel.
 #include <algorithm>
 #include <limits>
 
@@ -40,7 +41,7 @@ class Multipliers : public Watcher {
     const bool ends = loads_stay && (fits || updates_ >= most);
     run.contact_settled = ends && state.balanced;
     if (ends || !state.touches) return;
-    run.model.phase->control().update_multipliers(run.t, run.motion->u());
+    run.model.phase->control().update_multipliers(run.t, run.motion->u(), /*evenly=*/!loads_stay);
     run.motion->stepper->take_changed_forces(run.t);
     run.measured.discard();
     last_ = run.t;

@@ -214,8 +214,8 @@ void BodyContact<K>::commit(const double* u) {
 }
 
 template <Kinematics K>
-void BodyContact<K>::update_multipliers(const double* u) {
-  for (Pair* const pair : whole_) pair->force.update_multipliers(0, u);
+void BodyContact<K>::update_multipliers(const double* u, bool evenly) {
+  for (Pair* const pair : whole_) pair->force.update_multipliers(0, u, evenly);
 }
 
 template <Kinematics K>

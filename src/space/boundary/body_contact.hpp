@@ -46,7 +46,7 @@ class BodyContact {
   double growth() const;
 
   void commit(const double* u);
-  void update_multipliers(const double* u);
+  void update_multipliers(const double* u, bool evenly);
   void add_fit(const double* u, ContactFit& fit) const;
   void add_reports(const double* u, std::vector<ContactReport>& to) const;
   /// Where bodies of a contact lie in each other at u without feeling it, at most one place for each contact.

@@ -159,9 +159,9 @@ double Conditions<K>::growth_of_springs() const {
 }
 
 template <Kinematics K>
-void Conditions<K>::update_multipliers(double t, const double* u) {
-  rigid_contact_->update_multipliers(t, u);
-  body_contact_->update_multipliers(u);
+void Conditions<K>::update_multipliers(double t, const double* u, bool evenly) {
+  rigid_contact_->update_multipliers(t, u, evenly);
+  body_contact_->update_multipliers(u, evenly);
 }
 
 template <Kinematics K>

@@ -88,7 +88,7 @@ class Conditions {
   /// Whether loads stay what they are and springs where they are, so that nothing but motions in the body can put out
   /// of balance what rests at t.
   bool let_parts_rest(double t) const;
-  void update_multipliers(double t, const double* u);
+  void update_multipliers(double t, const double* u, bool evenly);
   bool ask_for_next_phase(ConstVec u) const;
   void end_phase(double t, const double* u);
   /// As RigidContact::faces().

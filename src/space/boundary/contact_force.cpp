@@ -221,7 +221,7 @@ void ContactForce<K, Finder>::commit(double t, const double* u) {
 }
 
 template <Kinematics K, class Finder>
-void ContactForce<K, Finder>::update_multipliers(double t, const double* u) {
+void ContactForce<K, Finder>::update_multipliers(double t, const double* u, bool evenly) {
   struct Sum {
     double area = 0, force = 0;
     Position shear = Position::Zero();
@@ -236,10 +236,25 @@ void ContactForce<K, Finder>::update_multipliers(double t, const double* u) {
     sum.shear += touch.area * (placement.Q.transpose() * touch.tau);
     touches.push_back(touch);
   });
+  std::vector<double> lambda(sums.size(), 0.0), change = lambda;
+  std::vector<Position> lambda_t(remembers() ? sums.size() : 0, Position::Zero()), change_t = lambda_t;
+  std::vector<char> bears(sums.size(), 0);
   for (std::size_t k = 0; k < sums.size(); ++k) {
-    lambda_[k] = sums[k].area > 0 ? sums[k].force / sums[k].area : 0;
-    if (remembers()) lambda_t_[k] = sums[k].area > 0 ? Position(sums[k].shear / sums[k].area) : Position::Zero();
+    if (!(sums[k].area > 0)) continue;
+    bears[k] = 1;
+    lambda[k] = sums[k].force / sums[k].area;
+    change[k] = lambda[k] - lambda_[k];
+    if (!remembers()) continue;
+    lambda_t[k] = sums[k].shear / sums[k].area;
+    change_t[k] = lambda_t[k] - lambda_t_[k];
   }
+  for (std::size_t k = 0; k < sums.size() && evenly; ++k) {
+    if (!bears[k]) continue;
+    lambda[k] = std::max(0.0, lambda_[k] + surface_.neighbours().smoothed(k, change, bears));
+    if (remembers()) lambda_t[k] = lambda_t_[k] + surface_.neighbours().smoothed(k, change_t, bears);
+  }
+  lambda_ = std::move(lambda);
+  lambda_t_ = std::move(lambda_t);
   if (!remembers()) return;
   for (const Touch& touch : touches)
     if (touch.slips) drag(placement, touch);

@@ -104,8 +104,9 @@ class ContactForce {
   /// Accepts the state at (t, u): anchors are dragged to where pieces slip, and a free body is looked for from there
   /// on.
   void commit(double t, const double* u);
-  /// Takes the pressures at (t, u) as multipliers.
-  void update_multipliers(double t, const double* u);
+  /// Takes the pressures at (t, u) as multipliers; evenly: by changes that are smoothed (patch_neighbours.hpp), of
+  /// which there may be any number.
+  void update_multipliers(double t, const double* u, bool evenly);
   void add_fit(double t, const double* u, ContactFit& fit) const;
   /// The mean gaps of the patches where they bear a pressure, (patches) [m]; NaN of a patch that bears none.
   std::vector<double> mean_gaps(double t, const double* u) const;

@@ -34,6 +34,7 @@ void ContactSurface<K>::begin_phase(const Parts& phase, const StiffnessBound& st
   freeze(phase);
   take_weights(phase, nullptr);
   take_functions();
+  neighbours_.find<K>(patches_, pieces_);
   if (!has_begun_) choose_stiffness(stiffness_bound());
   has_begun_ = true;
 }

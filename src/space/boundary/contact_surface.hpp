@@ -19,6 +19,7 @@
 
 #include "space/boundary/border_chains.hpp"
 #include "space/boundary/border_patches.hpp"
+#include "space/boundary/patch_neighbours.hpp"
 #include "space/boundary/stiffness_at.hpp"
 #include "space/grid/matrix_entries.hpp"
 
@@ -47,6 +48,8 @@ class ContactSurface {
   const std::vector<int>& functions() const { return functions_; }
   const std::vector<int>& functions_of_patches() const { return of_patches_; }
   const BorderPiece<K>& piece(std::size_t s) const { return pieces_[s]; }
+  /// The patches around each of them, in the present phase.
+  const PatchNeighbours& neighbours() const { return neighbours_; }
   /// The area of piece s when the phase began [m²], and its normal, outwards.
   double area(std::size_t s) const { return area_[s]; }
   Point<dim> normal(std::size_t s) const {
@@ -174,6 +177,7 @@ class ContactSurface {
   int free_ = 0;                             // n
   std::vector<BorderPiece<K>> pieces_;
   std::vector<Patch> patches_;
+  PatchNeighbours neighbours_;
   BorderChains<K> chains_;             // of all patches, in the plane and with material points; else empty
   std::vector<double> area_;           // (pieces) [m²]
   std::vector<std::size_t> begin_{0};  // first weight of each piece

@@ -201,8 +201,8 @@ void RigidContact<K>::commit(double t, const double* u) {
 }
 
 template <Kinematics K>
-void RigidContact<K>::update_multipliers(double t, const double* u) {
-  for (RigidBody& rigid : bodies_) rigid.update_multipliers(t, u);
+void RigidContact<K>::update_multipliers(double t, const double* u, bool evenly) {
+  for (RigidBody& rigid : bodies_) rigid.update_multipliers(t, u, evenly);
 }
 
 template <Kinematics K>

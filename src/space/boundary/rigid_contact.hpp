@@ -54,7 +54,7 @@ class RigidContact {
   /// Accepts the state at (t, u): anchors are dragged to where pieces slip.
   void commit(double t, const double* u);
   /// Takes the pressures at (t, u) as multipliers.
-  void update_multipliers(double t, const double* u);
+  void update_multipliers(double t, const double* u, bool evenly);
   void add_fit(double t, const double* u, ContactFit& fit) const;
   void add_reports(double t, const double* u, std::vector<ContactReport>& to) const;
   /// What lies in rigid bodies at (t, u), at most one place of a kind for each.

@@ -165,7 +165,7 @@ TEST_CASE("multipliers keep the pressure between bodies where they are taken, an
   const double before = phase->supports().contacts(0, u).at(0).force[1];
   REQUIRE(before > 0);
   CHECK(phase->supports().contact_state(0, u).misfit == Approx(0.04));  // 0.02 of cells of 0.5
-  phase->control().update_multipliers(0, u);
+  phase->control().update_multipliers(0, u, false);
   CHECK(phase->supports().contacts(0, u).at(0).force[1] == Approx(2 * before).epsilon(1e-12));  // λ + κ g, with λ = κ g
 }
 
