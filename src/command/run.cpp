@@ -202,7 +202,7 @@ class FolderOfNobody {
   std::shared_ptr<FolderLock> lock_;
 };
 
-// Throws StateError on all ranks unless all of them have the same scene, from the same state, and are of one build.
+// Throws StateError on all ranks unless all of them have the same scene, from the same state, and are of one version.
 void require_one_run(const Ranks& ranks, const Scene& scene, const std::filesystem::path& checkpoint) {
   std::string run = fmt::format("{}\n{}\n{}\n", STILLPOINT_VERSION, scene.text, fmt::join(scene.overrides, "\n"));
   if (!checkpoint.empty()) {
@@ -214,7 +214,7 @@ void require_one_run(const Ranks& ranks, const Scene& scene, const std::filesyst
   const auto other = std::ranges::find_if(all, [&](std::uint64_t one) { return one != all.front(); });
   if (other == all.end()) return;
   throw StateError(
-      fmt::format("ranks 0 and {} have different scenes, --set or checkpoints, or other builds of the "
+      fmt::format("ranks 0 and {} have different scenes, --set or checkpoints, or other versions of the "
                   "program; expected the same on all machines",
                   other - all.begin()));
 }

@@ -1,6 +1,7 @@
 #include "space/boundary/conditions.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include <fmt/format.h>

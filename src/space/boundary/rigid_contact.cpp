@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "scene/throw_scene_error.hpp"
+#include "space/boundary/facet_search.hpp"
 
 namespace stillpoint {
 namespace {
@@ -71,10 +72,11 @@ void RigidContact<K>::refuse_overlaps(double t) const {
 template <Kinematics K>
 void RigidContact<K>::refuse_points_inside(const Parts& phase, double t) const {
   constexpr double most = 0.5;  // [cells]
+  const std::vector<BorderPiece<K>> border = moved_pieces(surface_, nullptr);
   for (std::size_t r = 0; r < bodies_.size(); ++r) {
     const TouchFinder<K>& finder = bodies_[r].finder();
     const RigidPlacement<N> placement = finder.placement(t);
-    const Intrusion corner = deepest_corner(r, placement, moved_pieces(surface_, nullptr));
+    const Intrusion corner = deepest_corner(r, placement, border);
     if (corner.cells > 1 && !bodies_[r].was_there(corner.other))
       throw_scene_error(
           fmt::format("rigid[{}]", r),
