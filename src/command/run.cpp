@@ -174,7 +174,7 @@ class FolderOfNobody {
 
   static std::filesystem::path temporary_room() {
     std::error_code fault;
-    const std::filesystem::path room = std::filesystem::temp_directory_path(fault);
+    std::filesystem::path room = std::filesystem::temp_directory_path(fault);
     if (fault)
       throw StateError(
           "TMPDIR names no folder, in which a rank after the first keeps what it writes; expected one, or "
