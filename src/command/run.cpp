@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -13,10 +11,8 @@
 #include <fstream>
 #include <map>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string_view>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -30,7 +26,6 @@
 #include "command/launcher.hpp"
 #include "command/terminal.hpp"
 #include "output/checkpoint_file.hpp"
-#include "output/run_folder.hpp"
 #include "parallel/of_all.hpp"
 #include "parallel/start_ranks.hpp"
 #include "plan/catalogue.hpp"
@@ -145,63 +140,6 @@ std::filesystem::path checkpoint_of(const std::filesystem::path& folder_or_file)
                   folder_or_file.string()));
 }
 
-// The folder of what a rank after the first writes: the first alone leaves anything. One that was left behind, as a
-// rank that another one ends cannot remove its own, goes when the next one is made.
-class FolderOfNobody {
- public:
-  /// resumed: the folder of a run that goes on, whose files it takes; empty: there is none.
-  explicit FolderOfNobody(const std::filesystem::path& resumed) {
-    const std::filesystem::path room = temporary_room();
-    remove_left_behind(room);
-    std::string name = (room / (std::string(prefix) + "XXXXXX")).string();
-    if (!mkdtemp(name.data()))
-      throw std::filesystem::filesystem_error("mkdtemp", name, std::error_code(errno, std::generic_category()));
-    path_ = name;
-    lock_ = lock_folder(path_);
-    using std::filesystem::copy_options;
-    if (!resumed.empty()) copy(resumed, path_, copy_options::recursive | copy_options::skip_existing);
-  }
-  ~FolderOfNobody() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  FolderOfNobody(const FolderOfNobody&) = delete;
-  FolderOfNobody& operator=(const FolderOfNobody&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  static constexpr std::string_view prefix = "stillpoint-rank-";
-
-  static std::filesystem::path temporary_room() {
-    std::error_code fault;
-    std::filesystem::path room = std::filesystem::temp_directory_path(fault);
-    if (fault)
-      throw StateError(
-          "TMPDIR names no folder, in which a rank after the first keeps what it writes; expected one, or "
-          "TMPDIR not to be set");
-    return room;
-  }
-  // Those whose lock nobody holds, and that are not as young as one that is yet to be locked.
-  static void remove_left_behind(const std::filesystem::path& room) {
-    using namespace std::chrono_literals;
-    std::error_code fault;
-    for (const auto& entry : std::filesystem::directory_iterator(room, fault)) {
-      if (!entry.path().filename().string().starts_with(prefix)) continue;
-      const auto age = std::filesystem::file_time_type::clock::now() - entry.last_write_time(fault);
-      if (fault || age < 60s) continue;
-      try {
-        const FolderLock lock(entry.path());
-        std::filesystem::remove_all(entry.path(), fault);
-      } catch (const std::exception&) {
-        // It is in use, or somebody else's.
-      }
-    }
-  }
-
-  std::filesystem::path path_;
-  std::shared_ptr<FolderLock> lock_;
-};
-
 // Throws StateError on all ranks unless all of them have the same scene, from the same state, and are of one version.
 void require_one_run(const Ranks& ranks, const Scene& scene, const std::filesystem::path& checkpoint) {
   std::string run = fmt::format("{}\n{}\n{}\n", STILLPOINT_VERSION, scene.text, fmt::join(scene.overrides, "\n"));
@@ -241,19 +179,13 @@ int run_scene(const RunArguments& arguments, const std::shared_ptr<const Ranks>&
 
 // One of the ranks of a run. All of them do the same; the first leaves the files, and says what there is to say.
 int run_as_rank(RunArguments arguments, const std::shared_ptr<const Ranks>& ranks) {
-  std::optional<FolderOfNobody> folder;
   try {
     // What a launcher leaves free of a machine's cores is theirs in equal shares.
     if (arguments.threads == 0) arguments.threads = std::max(1, loop_threads() / ranks->on_this_machine());
-    if (ranks->rank() > 0) {
-      arguments.quiet = true;
-      const bool resumes = !arguments.resume.empty();
-      arguments.out = folder.emplace(resumes ? checkpoint_of(arguments.resume).parent_path() : "").path();
-    }
+    if (ranks->rank() > 0) arguments.quiet = true;
     return run_scene(arguments, ranks);
   } catch (...) {
     const auto [status, message] = failure_of_exception();
-    folder.reset();
     if (ranks->fails_with_all(status, message)) fmt::print(stderr, "{}\n", message);
     return status;
   }

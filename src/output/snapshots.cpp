@@ -60,11 +60,12 @@ FieldFrame frame_at(const Problem& problem, const LagrangianPhase& phase, double
 
 }  // namespace
 
-Snapshots::Snapshots(const Problem& problem, const LagrangianPhase& phase, const std::filesystem::path& folder,
-                     bool resumed)
-    : problem_(problem), phase_(phase) {
-  const bool asked = writes_fields(problem.output, "xdmf") || writes_fields(problem.output, "vtu");
-  if (asked) folder_ = folder;
+Snapshots::Snapshots(const Problem& problem, const LagrangianPhase& phase, bool gathers,
+                     const std::filesystem::path& folder, bool resumed)
+    : problem_(problem),
+      phase_(phase),
+      gathers_(gathers && (writes_fields(problem.output, "xdmf") || writes_fields(problem.output, "vtu"))) {
+  if (gathers_) folder_ = folder;
   if (!folder_.empty() && !resumed) open(0);
 }
 
@@ -111,7 +112,7 @@ void Snapshots::sample(double t, ConstVec u, ConstVec v) {
 }
 
 void Snapshots::take_last(double t, ConstVec u, ConstVec v) {
-  if (writes() && (taken_.empty() || taken_.back().t < t)) take(t, u, v);
+  if (gathers_ && (taken_.empty() || taken_.back().t < t)) take(t, u, v);
 }
 
 void Snapshots::finish() {
@@ -120,7 +121,7 @@ void Snapshots::finish() {
 
 void Snapshots::take(double t, ConstVec u, ConstVec v) {
   taken_.push_back({t, slope_angle_of(problem_, phase_, t, u)});
-  if (!writes()) return;
+  if (!gathers_) return;
   const FieldFrame frame = frame_at(problem_, phase_, t, u, v);
   if (xdmf_) xdmf_->add(frame);
   if (vtu_) vtu_->add(frame);

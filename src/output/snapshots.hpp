@@ -22,8 +22,9 @@ bool writes_fields(const OutputSpec& output, std::string_view format);
 class Snapshots {
  public:
   /// Nothing is written if the scene asks for no fields or the folder is empty, but slope angles are recorded all the
-  /// same. resumed: the files exist, and archive() opens them.
-  Snapshots(const Problem& problem, const LagrangianPhase& phase, const std::filesystem::path& folder,
+  /// same. gathers: whether the fields that the scene asks for are gathered, as all ranks have to for the one that has
+  /// a folder. resumed: the files exist, and archive() opens them.
+  Snapshots(const Problem& problem, const LagrangianPhase& phase, bool gathers, const std::filesystem::path& folder,
             bool resumed = false);
   void archive(const StateArchive& state);
 
@@ -42,10 +43,9 @@ class Snapshots {
   void take(double t, ConstVec u, ConstVec v);
   /// Opens the files; frames: those of a run that is continued.
   void open(std::size_t frames);
-  bool writes() const { return xdmf_ || vtu_; }
-
   const Problem& problem_;
   const LagrangianPhase& phase_;
+  bool gathers_;
   std::filesystem::path folder_;  // empty: nothing is written
   std::optional<FieldWriter> xdmf_;
   std::optional<VtuWriter> vtu_;

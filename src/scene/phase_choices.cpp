@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "scene/resolve.hpp"
+#include "scene/stages.hpp"
 
 namespace stillpoint {
 namespace {
@@ -14,14 +15,27 @@ bool damps(const Problem& problem, const Catalogue& catalogue) {
   return strategy && strategy->damps;
 }
 
+/// Whether a material of bodies that come later, or that a stage gives to some, remembers.
+bool some_stage_remembers(const Problem& problem, const Catalogue& catalogue) {
+  const auto remembers = [&](const std::string& material) {
+    const auto found = problem.materials.find(material);
+    const LawInfo* const law = found == problem.materials.end() ? nullptr : catalogue.law(found->second.law);
+    return law && law->history_dependent;
+  };
+  return std::ranges::any_of(problem.later_bodies, remembers, &BodySpec::material) ||
+         std::ranges::any_of(problem.stages,
+                             [&](const StageSpec& stage) { return std::ranges::any_of(stage.material, remembers); });
+}
+
 // Bodies whose law has no history take domains if they can and if the motion is damped: without damping, means over
 // domains would cost flip some of the motion's energy. With damping they take apic: flip keeps the part of the points'
 // velocities that no function of this phase sees until functions of a later phase see it, and that shakes a body that
-// overshoots into a shape that no force takes back.
+// overshoots into a shape that no force takes back. What is chosen holds for all stages.
 void resolve_quadrature(Problem& problem, const Catalogue& catalogue, bool remembers) {
   PhaseSpec& phase = problem.phase;
-  const bool rests =
-      damps(problem, catalogue) && problem.grid.basis != BasisKind::hermite && !remembers && !phase.at_stages;
+  const bool moves_on = phase.ends_by_motion() || phase.max_strain;  // and does so not by stages alone
+  const bool rests = damps(problem, catalogue) && problem.grid.basis != BasisKind::hermite && !remembers && moves_on &&
+                     !some_stage_remembers(problem, catalogue) && !problem.displacements_from_zero;
   if (rests && why_no_domains(problem).empty()) {
     phase.quadrature.take(Quadrature::domains, "the points of elastic boxes, damped, lie side by side");
   } else {
@@ -57,7 +71,7 @@ bool any_remembers(const std::vector<const MaterialSpec*>& materials, const Cata
 std::string why_no_domains(const Problem& problem) {
   if (problem.state == StressState::axisymmetric) return "an axisymmetric scene has rings";
   if (problem.state == StressState::space) return "in space points stand for themselves";
-  for (const BodySpec& body : problem.bodies) {
+  for (const BodySpec& body : bodies_of_all_stages(problem)) {
     if (!body.is_box()) return "a body of a file or a polygon is no box";
     if (body.placement != Placement::uniform || body.jitter > 0) return "points that are not uniform share no faces";
   }

@@ -143,6 +143,9 @@ void begin_next_stage(Scene& scene) {
   const StageSpec stage = scene.stages.front();
   scene.stages.erase(scene.stages.begin());
   scene.present_stage = stage;
+  // Points go on as they were made.
+  scene.phase.quadrature = scene.phase.quadrature.value();
+  scene.phase.transfer = scene.phase.transfer.value();
   scene.geostatic.reset();
   scene.initial_stress.clear();
   scene.initial_from.clear();

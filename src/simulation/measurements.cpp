@@ -15,12 +15,22 @@ const Measurements::Figures& Measurements::all() {
   if (const auto omega_1 = run_.model.learns_omega_1 ? motion.stepper->lowest_frequency() : std::nullopt)
     error_bound_.learn(*omega_1);
   figures_.distance = error_bound_.distance(motion.norms, motion.u_vector, motion.stepper->known().acceleration);
-  figures_.work_scale = motion.norms.work_scale(motion.u_vector);
+  figures_.work_scale = motion.norms.work_scale(motion.u_vector) + work_in_a_step();
   const StateNorms::Motion measured = motion.motion();
   figures_.power = measured.power;
   figures_.kinetic_energy = measured.kinetic_energy;
   if (run_.schedule.settled_for_good(run_.t)) error_bound_.loads_have_settled(figures_.kinetic_energy);
   return figures_;
+}
+
+// What begins at rest, as a stage may that changes nothing, has moved by no way at all: beside its work every velocity
+// would be large, that of rounding too. The loads alone would do ‖F‖²/(m ω_max²) at least on a body of the mass m in
+// the time of a step.
+double Measurements::work_in_a_step() const {
+  const Model& model = run_.model;
+  if (run_.motion->system.keeps_momentum() || !(model.omega_max > 0)) return 0;
+  const double F = run_.motion->system.force_scale();
+  return F * F / (model.mass.factor * model.phase->info().total_mass * model.omega_max * model.omega_max);
 }
 
 double Measurements::residual() {

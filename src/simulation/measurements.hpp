@@ -17,7 +17,7 @@ class Measurements {
   struct Figures {
     double residual = 0;             // ‖F − R‖/‖F‖
     double kinetic_energy = 0;       // [J]
-    double work_scale = 0;           // |F·u| + |R·u| [J]
+    double work_scale = 0;           // |F·u| + |R·u|, and what loads do in a step [J]
     double power = 0;                // Q·v [W], with Q = F − R
     std::optional<double> distance;  // the error bound relative to ‖u‖; empty: there is none
   };
@@ -57,6 +57,8 @@ class Measurements {
   Creeping creeping;  // set by the watcher of creep
 
  private:
+  double work_in_a_step() const;
+
   RunState& run_;
   ErrorBound error_bound_;
   Figures figures_;

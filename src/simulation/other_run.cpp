@@ -93,9 +93,10 @@ std::shared_ptr<CarriedBody> points_of_other_run(const Problem& problem) {
     if (had_domains != has_domains)
       throw_scene_error(
           initial_from,
-          fmt::format("the points of {} represent domains, and those of {} do not; expected the same "
-                      "phase.quadrature in both",
-                      had_domains ? "the other run" : "this scene", had_domains ? "this scene" : "the other run"));
+          fmt::format("the points of {} represent domains, and those of {} do not; expected phase.quadrature = \"{}\" "
+                      "here",
+                      had_domains ? "the other run" : "this scene", had_domains ? "this scene" : "the other run",
+                      had_domains ? "domains" : "points"));
     const std::vector<std::size_t> numbers = numbers_of(scene, problem);
     refuse_other_laws(scene, problem, numbers);
     refuse_other_thickness(scene, problem, numbers);

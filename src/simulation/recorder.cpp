@@ -9,6 +9,7 @@
 #include "output/run_folder.hpp"
 #include "simulation/contact_figures.hpp"
 #include "simulation/motion_figures.hpp"
+#include "simulation/own_files.hpp"
 #include "simulation/support_figures.hpp"
 
 namespace stillpoint {
@@ -44,8 +45,10 @@ Recorder::Recorder(RunState& run, bool resumed)
       has_distance_(run.measured.has_distance()),
       probes_(problem_, phase_),
       energy_balance_(phase_),
-      history_(open_output(options_.out, [&] { return History(options_.out, columns(), resumed); })),
-      snapshots_(open_output(options_.out, [&] { return Snapshots(problem_, phase_, options_.out, resumed); })),
+      history_(open_output(options_.out, [&] { return History(own_folder(options_), columns(), resumed); })),
+      snapshots_(open_output(
+          options_.out,
+          [&] { return Snapshots(problem_, phase_, !options_.out.empty(), own_folder(options_), resumed); })),
       interval_(output_interval(problem_, run.model)),
       lands_on_rows_(problem_.output.every > 0 || !run.model.initial_stiffening) {}
 

@@ -11,6 +11,7 @@
 #include "output/report/report_page.hpp"
 #include "output/report/run_report.hpp"
 #include "output/run_folder.hpp"
+#include "simulation/own_files.hpp"
 #include "simulation/parts.hpp"
 
 namespace stillpoint {
@@ -24,9 +25,9 @@ BodyMoment now(const Simulation& simulation) {
 // written if the run begins anew; a run that is resumed has its own.
 Summary leave_stopped_set_up(const Problem& problem, const SimulationOptions& options, const SetUpStopped& stopped) {
   const bool resumes = !options.resume.empty();
-  if (options.records && !options.out.empty()) {
-    const auto lock = prepare_folder(options.out, resumes);
-    if (!resumes) History(options.out, {}).finish();
+  if (const auto folder = own_folder(options); options.records && !folder.empty()) {
+    const auto lock = prepare_folder(folder, resumes);
+    if (!resumes) History(folder, {}).finish();
   }
   Summary s;
   s.scene = problem.name;
@@ -50,7 +51,7 @@ Summary simulate(const Scene& scene, const SimulationOptions& options, RunReport
                  std::shared_ptr<FolderLock>& lock) {
   try {
     Simulation simulation(scene, options);
-    if (!options.out.empty()) lock = lock_folder(options.out);
+    if (const auto folder = own_folder(options); !folder.empty()) lock = lock_folder(folder);
     if (report.looks_at_body()) report.begin(now(simulation));
     simulation.run();
     if (report.looks_at_body() && simulation.parts().is_readable) report.end(now(simulation));
@@ -64,14 +65,14 @@ Summary simulate(const Scene& scene, const SimulationOptions& options, RunReport
 
 Summary run(const Scene& scene, const SimulationOptions& options) {
   std::shared_ptr<FolderLock> lock;
-  if (std::filesystem::is_directory(options.out))
-    lock = lock_folder(options.out);  // before a set-up, which may be long
+  const std::filesystem::path folder = own_folder(options);
+  if (std::filesystem::is_directory(folder)) lock = lock_folder(folder);  // before a set-up, which may be long
   RunReport report(scene, options.out);
   Summary summary = simulate(scene, options, report, lock);
-  if (options.out.empty()) return summary;
+  if (folder.empty()) return summary;
   const std::string json = to_json(summary), page = report.page(summary);  // before either is written
-  write_file(options.out / "summary.json", json);
-  write_file(options.out / report_name, page);
+  write_file(folder / "summary.json", json);
+  write_file(folder / report_name, page);
   return summary;
 }
 

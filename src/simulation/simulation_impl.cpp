@@ -12,6 +12,7 @@
 #include "base/stop_request.hpp"
 #include "output/point_fields.hpp"
 #include "output/run_folder.hpp"
+#include "simulation/own_files.hpp"
 
 namespace stillpoint {
 namespace {
@@ -27,7 +28,8 @@ Simulation::Impl::Impl(Scene scene, SimulationOptions options, int threads)
       watchers_(make_watchers(*run_)) {
   const SimulationOptions& asked = run_->options;
   const bool resumes = !asked.resume.empty();
-  if (asked.records && !asked.out.empty()) folder_lock_ = prepare_folder(asked.out, resumes);
+  if (const auto folder = own_folder(asked); asked.records && !folder.empty())
+    folder_lock_ = prepare_folder(folder, resumes);
   if (asked.records) recorder_.emplace(*run_, resumes);
   if (resumes) {
     resume(asked.resume);

@@ -9,6 +9,7 @@
 
 #include "output/checkpoint_file.hpp"
 #include "parallel/of_all.hpp"
+#include "simulation/own_files.hpp"
 #include "simulation/simulation_impl.hpp"
 
 namespace stillpoint {
@@ -70,7 +71,7 @@ void Simulation::Impl::save(const fs::path& to) {
   SavedState state;
   origin_of(run_->scene).archive(StateArchive::saving(state).part("origin"));
   archive(StateArchive::saving(state));
-  write_checkpoint(to, state);
+  if (!own_folder(run_->options).empty()) write_checkpoint(to, state);
 }
 
 void Simulation::Impl::resume(const fs::path& from) {

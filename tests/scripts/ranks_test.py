@@ -37,7 +37,12 @@ def check_same(folder, scene, *overrides, counts=(2, 3, 4), status=0):
         assert together.returncode == status, together
         assert (out / "history.csv").read_bytes() == (folder / "1/history.csv").read_bytes(), (scene, overrides, count)
         assert figures_of(out) == figures_of(folder / "1") | {"ranks": count}, (scene, overrides, count)
+        assert names_in(out) == names_in(folder / "1"), (scene, overrides, count)
     assert list(csv.DictReader((folder / "1/history.csv").open()))
+
+
+def names_in(folder):
+    return sorted(str(file.relative_to(folder)) for file in folder.rglob("*"))
 
 
 def figures_of(folder):
@@ -108,10 +113,27 @@ def _(folder):
         check_same(name, scene, *overrides, counts=(2,), status=3 if overrides else 0)
 
 
+@claim("stages go on from one to the next, are resumed, and begin with the points of another run, on any number of ranks")
+def _(folder):
+    in_time = ("solve.method=relaxation", "damping.strategy=viscous", "stop.residual=1e-6")
+    for k, law in enumerate(("linear-elastic", "hencky", "drucker-prager")):
+        name = folder / str(k)
+        name.mkdir()
+        settings = (f"material.fill.law={law}", *(("material.fill.c=1e6",) if law == "drucker-prager" else ()), *in_time)
+        check_same(name, "ladder/lifts.toml", *settings, "checkpoint.every_steps=50", counts=(2, 3))
+        begins = (*settings, "stage=[]", f"initial.from={name / '1/checkpoint.h5'}", "stop.steps=60", "body_force.value=[0,-12]")
+        (name / "from").mkdir()
+        check_same(name / "from", "ladder/lifts.toml", *begins, counts=(2,), status=3)
+    (folder / "plate").mkdir()
+    plate = "rigid=[{name='plate', half_plane=[[0, 'H'], [0, -1]], motion=['0', '-0.05*min(max(t - 2, 0), 1)']}]"
+    stages = "stage=[{at=1, add=['lift 2', 'lift 3', 'lift 4', 'lift 5', 'lift 6']}, {at=2, add=['plate']}]"
+    check_same(folder / "plate", "ladder/lifts.toml", *in_time, plate, stages, "stop.time=4", counts=(2,))
+
+
 @claim("what ranks do not share is refused once, by its name, with status 2, and nothing is written")
 def _(folder):
-    result = run(2, "embankment.toml", folder / "out")
-    assert result.returncode == 2 and result.stderr.count("stages are not shared among ranks yet") == 1, result
+    result = run(2, "slope.toml", folder / "out", "phase.rest=1e-3")
+    assert result.returncode == 2 and result.stderr.count("parts do not rest where ranks share the points yet") == 1, result
     assert not (folder / "out").exists()
 
 

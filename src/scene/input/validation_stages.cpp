@@ -199,9 +199,6 @@ void check_other_run(SceneCheck& check) {
   const std::string from = "initial.from";
   check.refuse_if(scene.initial_from.empty(), "initial", {"displacements"}, "goes with from, another run");
   if (scene.initial_from.empty()) return;
-  check.wrong_if(scene.may_touch() || !scene.later_rigid.empty(), from,
-                 "the border of a body that another run has strained is not known, so that nothing can touch it; put "
-                 "both runs into one scene, of which the second is a [[stage]] that adds what touches");
   std::error_code none;
   check.wrong_if(!std::filesystem::is_regular_file(scene.initial_from, none), from, "there is no file {}",
                  scene.initial_from.string());

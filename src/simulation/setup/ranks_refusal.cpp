@@ -11,8 +11,6 @@ void refuse_what_ranks_lack(const Problem& problem) {
   const auto refuse_if = [](bool lacking, const std::string& key, const std::string& what) {
     if (lacking) throw_scene_error(key, what + "; expected one copy of the command, with --threads");
   };
-  refuse_if(!problem.stages.empty(), "stage[0]", "stages are not shared among ranks yet");
-  refuse_if(!problem.initial_from.empty(), "initial.from", "ranks do not begin with the points of another run yet");
   refuse_if(!problem.own_load.empty(), "body_force.own", "loads of a program's own are not shared among ranks");
   refuse_if(problem.phase.ends() && problem.phase.quadrature == Quadrature::domains, "phase.quadrature",
             "domains are not shared among ranks yet: take \"points\"");

@@ -15,6 +15,7 @@
 #include "output/point_fields.hpp"
 #include "scene/dimensions.hpp"
 #include "simulation/advice/notes.hpp"
+#include "simulation/own_files.hpp"
 #include "simulation/watch/contact_alone.hpp"
 #include "solvers/spectrum/direct_solver_limit.hpp"
 #include "solvers/spectrum/lowest_mode.hpp"
@@ -131,7 +132,7 @@ void write_mode(const EquilibriumStability& stability, const LagrangianPhase& ph
     text +=
         fmt::format("{},{:.17g},{:.17g}\n", p + 1, fmt::join(row(position), ","), fmt::join(row(stability.mode), ","));
   }
-  write_file(folder / "unstable_mode.csv", text);
+  if (!folder.empty()) write_file(folder / "unstable_mode.csv", text);
 }
 
 }  // namespace
@@ -211,7 +212,7 @@ void StabilityTest::confirm(RunState& run, Verdict& verdict) {
   if (stability_.kind != EquilibriumStability::Kind::unstable && !softened_away) return;
   verdict = {RunStatus::unstable_equilibrium, fmt::format("{}; {}", verdict.reason, description(stability_))};
   if (run.options.records && !run.options.out.empty())
-    write_mode(stability_, phase, run.t, run.motion->u(), run.options.out);
+    write_mode(stability_, phase, run.t, run.motion->u(), own_folder(run.options));
 }
 
 void StabilityTest::fill_state(Summary& summary, RunState&) {

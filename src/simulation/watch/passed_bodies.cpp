@@ -139,7 +139,7 @@ std::string described(const Problem& problem, const Overlap& overlap) {
 bool is_grave(const Intrusion& found) {
   constexpr double corner = 0.15, half = 0.5, rounding = 0.02, tenth = 0.1;  // [cells]
   if (found.of == Intrusion::Of::border) return !found.bears && found.cells > half;
-  if (found.of == Intrusion::Of::corner) return found.cells > 1;
+  if (found.of == Intrusion::Of::surface) return found.cells > 1;
   if (found.of == Intrusion::Of::bodies) return found.cells > (found.bears ? half : tenth);
   return found.cells > (found.bears ? corner : rounding);
 }
@@ -165,9 +165,9 @@ std::string described(const Problem& problem, const Intrusion& found) {
         more_phases(problem));
   }
   const std::string body = name_of_body(problem, found.other);
-  if (found.of == Intrusion::Of::corner)
+  if (found.of == Intrusion::Of::surface)
     return fmt::format(
-        "{} has gone in between the places of the border of {} that feel contact: its corner at ({:.4g}) lies {:.2g} "
+        "{} has gone in between the places of the border of {} that feel contact: its surface at ({:.4g}) lies {:.2g} "
         "cells below the border, and only a border feels contact; expected smaller cells, or a rigid body that is "
         "wider "
         "there than a cell",

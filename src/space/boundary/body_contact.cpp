@@ -147,12 +147,22 @@ void BodyContact<K>::archive(const StateArchive& state) {
 }
 
 template <Kinematics K>
+void BodyContact<K>::leave_placed(const WaysSincePlaced<dim>& ways) {
+  for (const auto& pair : pairs_) {
+    pair->first.leave_placed(ways);
+    pair->second.leave_placed(ways);
+    pair->force.begin_on_surface();
+  }
+}
+
+template <Kinematics K>
 void BodyContact<K>::take_over(const StateArchive& state) {
   for (const auto& pair : pairs_) {
     pair->first.take_over(state.part(name_of(*pair) + "/first"));
     pair->second.take_over(state.part(name_of(*pair) + "/second"));
   }
   for (Pair* const pair : whole_) {
+    pair->force.begin_on_surface();
     pair->was_whole = state.has_part(name_of(*pair) + "/force");
     if (!pair->was_whole) continue;
     pair->force.take_over(state.part(name_of(*pair) + "/force"));

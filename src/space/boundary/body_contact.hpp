@@ -37,6 +37,8 @@ class BodyContact {
   void archive(const StateArchive& state);
   /// Before the first phase of a stage: takes over what the stage before remembers, as archive() saved it.
   void take_over(const StateArchive& state);
+  /// Before the first phase: moves borders to where another run has left them.
+  void leave_placed(const WaysSincePlaced<dim>& ways);
 
   /// R −= the forces at u, (n); at_supports: the same at prescribed unknowns.
   void add_force(const double* u, Vec R, Vec at_supports) const;

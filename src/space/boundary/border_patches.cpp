@@ -219,7 +219,7 @@ Patches<K> along_lines(const Problem& problem, std::size_t number, const Grid<2>
                      line.normal,
                      length / static_cast<double>(parts),
                      length_through(grid, cell, along) / static_cast<double>(parts),
-                     {width_of_cell<dim>(grid, cell), depth, std::move(pieces)}});
+                     {width_of_cell<dim>(grid, cell), depth, std::move(pieces), grid.cell_number(cell)}});
       }
     }
   }

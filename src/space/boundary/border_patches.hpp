@@ -19,6 +19,7 @@ struct BorderPatch {
   double depth;  // thickness, or 2 π r if axisymmetric [m]; 1 in space
   std::vector<BorderPiece<K>> pieces;
   // In the plane:
+  int of_cell = -1;               // the number of the cell that it borders when it is placed
   bool goes_on = false;           // the patch before goes on with this one, without a corner
   bool closes = false;            // the border goes on with the first patch of those
   std::array<FaceEnd, 2> ends{};  // where the border begins and ends with this patch

@@ -6,6 +6,7 @@
 
 #include "space/boundary/carried_point.hpp"
 #include "space/kernels/change_of_volume.hpp"
+#include "space/points/way_since_placed.hpp"
 
 namespace stillpoint {
 
@@ -68,6 +69,15 @@ struct BorderPiece {
   void move(const double* u) {
     vector = deformed_area(u);
     at.move(u);
+  }
+  /// Moves it from where it was placed to where another run has left it; in_place: as the points of small strain.
+  void leave_placed(const WaySincePlaced<dim>& way, bool in_place) {
+    if (in_place) {
+      gone = way.u;
+      return;
+    }
+    vector = way.area(vector);
+    for (std::size_t i = 0; i < dim; ++i) at.x[i] += way.u[i];
   }
 
   /// Moves it at the end of a stage of small strain.

@@ -15,6 +15,7 @@
 #include "space/grid/matrix_entries.hpp"
 #include "space/kernels/point_functions.hpp"
 #include "space/points/material_points.hpp"
+#include "space/points/way_since_placed.hpp"
 
 namespace stillpoint {
 
@@ -101,7 +102,16 @@ struct PhaseParts {
   const DegreesOfFreedom& dofs;
   const std::vector<double>& node_mass;  // m_i, (functions) [kg]
   const Mass& mass;
-  bool remembers;  // whether some of the points have a history
+  bool remembers;                   // whether some of the points have a history
+  const std::vector<double>& gone;  // see PhaseFrame
+
+  /// Where point p is when the phase begins.
+  Point<Dim> place_of(std::size_t p) const {
+    Point<Dim> x = points.position(p);
+    const std::size_t first = static_cast<std::size_t>(Dim) * static_cast<std::size_t>(points.number[p]);
+    for (std::size_t d = 0; d < Dim && !gone.empty(); ++d) x[d] += gone[first + d];
+    return x;
+  }
 };
 
 /// All boundary conditions of one kind in a scene. F: (n) [N]; u: over the grid's functions, component i at [Dim
@@ -150,6 +160,9 @@ class BoundaryCondition {
   virtual bool asks_for_next_phase(ConstVec /*u*/) const { return false; }
   /// Called when the phase ends with u.
   virtual void end_phase(const double* /*u*/) {}
+
+  /// Called before the first phase of a run that begins with the points of another one.
+  virtual void leave_placed(const WaysSincePlaced<Dim>&) {}
 
   /// Saves or restores what the condition remembers of earlier phases and steps; a restoration calls it twice, before
   /// and after the saved phase begins anew.

@@ -59,10 +59,10 @@ struct ContactReport {
 
 /// What lies in a rigid body without being felt, where it lies deepest.
 struct Intrusion {
-  enum class Of { points, border, corner, rigid, bodies };
+  enum class Of { points, border, surface, rigid, bodies };
   Of of =
       Of::points;  // of material points; of the border beside the pieces that feel contact, where these bear
-                   // nothing; of a corner of the rigid body in the body; of a rigid body; or of bodies in each other
+                   // nothing; of the surface of the rigid body in the body; of a rigid body; or of bodies in each other
   std::size_t rigid = 0, other = 0;  // numbers in the scene, of the rigid body and of the body or rigid body in it; of
                                      // bodies in each other, of their contact
   double cells = 0;                  // the depth [cells]

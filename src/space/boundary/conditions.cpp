@@ -8,6 +8,7 @@
 
 #include "space/boundary/body_contact.hpp"
 #include "space/boundary/rigid_contact.hpp"
+#include "space/points/way_since_placed.hpp"
 
 namespace stillpoint {
 namespace {
@@ -248,6 +249,15 @@ void Conditions<K>::take_over(const SavedState& from_stage) {
   if (state.has_part("load")) load_control_.archive(state.part("load"));
   rigid_contact_->take_over(state.part("rigid"));
   body_contact_->take_over(state.part("bodies"));
+}
+
+template <Kinematics K>
+void Conditions<K>::leave_placed(const CarriedBodyOf<K>& carried, const Grid<dim>& grid) {
+  const auto ways = ways_since_placed<K>(problem_, carried, grid);
+  for (const auto& condition : all_) condition->leave_placed(*ways);
+  load_control_.leave_placed(*ways);
+  rigid_contact_->leave_placed(*ways);
+  body_contact_->leave_placed(*ways);
 }
 
 template <Kinematics K>

@@ -104,6 +104,8 @@ class Conditions {
   // --- from stage to stage --------------------------------------------------------------------------
   /// Before the first phase: takes over what the conditions of the stage before remember, as archive() saved it.
   void take_over(const SavedState& from_stage);
+  /// Moves the borders of bodies that are loaded or may be touched to where another run has left them.
+  void leave_placed(const CarriedBodyOf<K>& carried, const Grid<dim>& grid);
   /// Balances the force that a stage puts out of balance, F − R at its begin, (n) [N], and lets that fade until the
   /// time `over` [s].
   void let_fade(const Parts& phase, double t, double over, ConstVec out_of_balance) {

@@ -50,7 +50,6 @@ void ContactForce<K, Finder>::archive(const StateArchive& state) {
 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::take_over(const StateArchive& state) {
-  resize();
   for (Eigen::Index i = 0; i < N && finder_.is_free(); ++i) state(fmt::format("settled_{}", i), settled_[i]);
   for (const auto& part : surface_.parts()) {
     if (!state.has_part(surface_.name_of(part))) continue;
@@ -220,12 +219,37 @@ void ContactForce<K, Finder>::commit(double t, const double* u) {
     if (!closed_[s]) anchor_[s] = placement.to_body(TouchFinder<K>::position_of(surface_.position(s, u)));
 }
 
+// Instead of the changes of the patches themselves those that groups of them have in common, and their neighbours.
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::smooth(const std::vector<Sum>& sums, std::vector<double>& lambda,
+                                     std::vector<Position>& lambda_t) const {
+  const PatchNeighbours& neighbours = surface_.neighbours();
+  std::vector<double> area(neighbours.groups(), 0.0), change = area;
+  std::vector<Position> change_t(remembers() ? area.size() : 0, Position::Zero());
+  std::vector<char> bears(area.size(), 0);
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    if (!(sums[k].area > 0)) continue;
+    const std::size_t group = neighbours.group_of(k);
+    bears[group] = 1;
+    area[group] += sums[k].area;
+    change[group] += sums[k].area * (lambda[k] - lambda_[k]);
+    if (remembers()) change_t[group] += sums[k].area * (lambda_t[k] - lambda_t_[k]);
+  }
+  for (std::size_t group = 0; group < area.size(); ++group) {
+    if (!bears[group]) continue;
+    change[group] /= area[group];
+    if (remembers()) change_t[group] /= area[group];
+  }
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    if (!(sums[k].area > 0)) continue;
+    const std::size_t group = neighbours.group_of(k);
+    lambda[k] = std::max(0.0, lambda_[k] + neighbours.smoothed(group, change, bears));
+    if (remembers()) lambda_t[k] = lambda_t_[k] + neighbours.smoothed(group, change_t, bears);
+  }
+}
+
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::update_multipliers(double t, const double* u, bool evenly) {
-  struct Sum {
-    double area = 0, force = 0;
-    Position shear = Position::Zero();
-  };
   const RigidPlacement<N> placement = this->placement(t, u);
   std::vector<Sum> sums(surface_.patches().size());
   std::vector<Touch> touches;
@@ -236,23 +260,14 @@ void ContactForce<K, Finder>::update_multipliers(double t, const double* u, bool
     sum.shear += touch.area * (placement.Q.transpose() * touch.tau);
     touches.push_back(touch);
   });
-  std::vector<double> lambda(sums.size(), 0.0), change = lambda;
-  std::vector<Position> lambda_t(remembers() ? sums.size() : 0, Position::Zero()), change_t = lambda_t;
-  std::vector<char> bears(sums.size(), 0);
+  std::vector<double> lambda(sums.size(), 0.0);
+  std::vector<Position> lambda_t(remembers() ? sums.size() : 0, Position::Zero());
   for (std::size_t k = 0; k < sums.size(); ++k) {
     if (!(sums[k].area > 0)) continue;
-    bears[k] = 1;
     lambda[k] = sums[k].force / sums[k].area;
-    change[k] = lambda[k] - lambda_[k];
-    if (!remembers()) continue;
-    lambda_t[k] = sums[k].shear / sums[k].area;
-    change_t[k] = lambda_t[k] - lambda_t_[k];
+    if (remembers()) lambda_t[k] = sums[k].shear / sums[k].area;
   }
-  for (std::size_t k = 0; k < sums.size() && evenly; ++k) {
-    if (!bears[k]) continue;
-    lambda[k] = std::max(0.0, lambda_[k] + surface_.neighbours().smoothed(k, change, bears));
-    if (remembers()) lambda_t[k] = lambda_t_[k] + surface_.neighbours().smoothed(k, change_t, bears);
-  }
+  if (evenly) smooth(sums, lambda, lambda_t);
   lambda_ = std::move(lambda);
   lambda_t_ = std::move(lambda_t);
   if (!remembers()) return;

@@ -81,6 +81,8 @@ class ContactForce {
   Finder& finder() { return finder_; }
   const Finder& finder() const { return finder_; }
   bool remembers() const { return shear_.acts(); }
+  /// Before the first phase, or the first of a stage: nothing bears yet, however many pieces the surface has by then.
+  void begin_on_surface() { resize(); }
   /// Sets the anchors where the pieces are when a phase begins, less the slip that each has had.
   void anchor_at_start(double t, const std::vector<Position>& slip);
   /// The same in the first phase of a stage, of the pieces that the stage before did not have.
@@ -88,7 +90,7 @@ class ContactForce {
   /// The elastic slip of each piece, T⁻¹ x − a, (pieces); empty without friction.
   std::vector<Position> slips(double t, const double* u) const;
   void archive(const StateArchive& state);
-  /// Before the first phase of a stage, once the surface has done so: takes over what the stage before remembers.
+  /// After begin_on_surface(): takes over what the stage before remembers.
   void take_over(const StateArchive& state);
   /// Whether it acted on a body in the stage before.
   bool was_there(std::size_t body) const { return body < was_there_.size() && was_there_[body]; }
@@ -157,6 +159,13 @@ class ContactForce {
     });
   }
   void drag(const RigidPlacement<N>& placement, const Touch& touch);
+  /// What the closed pieces of a patch bear.
+  struct Sum {
+    double area = 0, force = 0;
+    Position shear = Position::Zero();
+  };
+  /// Lets multipliers, (patches), differ from the present ones by changes that are smoothed (patch_neighbours.hpp).
+  void smooth(const std::vector<Sum>& sums, std::vector<double>& lambda, std::vector<Position>& lambda_t) const;
 
   const ContactSurface<K>& surface_;
   Finder finder_;

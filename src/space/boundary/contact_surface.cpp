@@ -20,7 +20,11 @@ ContactSurface<K>::ContactSurface(const Problem& problem, const std::vector<char
     if (!touched[k]) continue;
     const std::vector<BorderPatch<K>> patches = border_patches<K>(problem, k, grid);
     if (stretches) chains_.add(problem.bodies[k], patches, patches_.size());
+    const bool are_domains = problem.phase.ends() && problem.phase.quadrature == Quadrature::domains;
+    int cell = -1;  // of the patch before
     for (const BorderPatch<K>& patch : patches) {
+      const bool is_same = patch.of_cell == std::exchange(cell, patch.of_cell) && patch.goes_on;
+      if (are_domains) group_.push_back(group_.empty() ? 0 : group_.back() + (is_same ? 0 : 1));
       const std::size_t begin = pieces_.size();
       pieces_.insert(pieces_.end(), patch.pieces.begin(), patch.pieces.end());
       patches_.push_back({.body = k, .begin = begin, .end = pieces_.size(), .cell = patch.cell, .depth = patch.depth});
@@ -34,7 +38,7 @@ void ContactSurface<K>::begin_phase(const Parts& phase, const StiffnessBound& st
   freeze(phase);
   take_weights(phase, nullptr);
   take_functions();
-  neighbours_.find<K>(patches_, pieces_);
+  neighbours_.find<K>(patches_, pieces_, group_);
   if (!has_begun_) choose_stiffness(stiffness_bound());
   has_begun_ = true;
 }
@@ -179,6 +183,15 @@ void ContactSurface<K>::end_phase(const double* u, bool in_place) {
       piece.move(u);
     }
   }
+}
+
+template <Kinematics K>
+void ContactSurface<K>::leave_placed(const WaysSincePlaced<dim>& ways) {
+  for (const Patch& patch : patches_) {
+    for (std::size_t s = patch.begin; s < patch.end; ++s)
+      if (const auto way = ways.at(patch.body, pieces_[s].X)) pieces_[s].leave_placed(*way, ways.in_place());
+  }
+  if (!ways.in_place()) cut_anew();
 }
 
 template <Kinematics K>

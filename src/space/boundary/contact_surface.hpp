@@ -127,6 +127,9 @@ class ContactSurface {
   /// Moves the pieces at the end of a phase; in_place: of a stage of small strain, whose points stay where they are. u:
   /// over the grid's functions.
   void end_phase(const double* u, bool in_place);
+  /// Before the first phase: moves the borders of bodies that another run has left from where they were placed, and
+  /// cuts them anew.
+  void leave_placed(const WaysSincePlaced<dim>& ways);
   /// Moves them by ways of their own besides, (pieces) or empty [m].
   template <class Position>
   void move(const std::vector<Position>& ways) {
@@ -177,6 +180,7 @@ class ContactSurface {
   int free_ = 0;                             // n
   std::vector<BorderPiece<K>> pieces_;
   std::vector<Patch> patches_;
+  std::vector<std::size_t> group_;  // of each patch, those of a cell, where these are domains; else empty
   PatchNeighbours neighbours_;
   BorderChains<K> chains_;             // of all patches, in the plane and with material points; else empty
   std::vector<double> area_;           // (pieces) [m²]

@@ -55,22 +55,21 @@ FacetSearch<K>::FacetSearch(std::span<const SurfacePatch> patches, const std::ve
 template <Kinematics K>
 template <class PieceAt>
 void FacetSearch<K>::list(std::span<const SurfacePatch> patches, const PieceAt& piece_at) {
-  Point<dim> least, most;
-  least.fill(std::numeric_limits<double>::infinity());
-  most.fill(-std::numeric_limits<double>::infinity());
+  least_.fill(std::numeric_limits<double>::infinity());
+  most_.fill(-std::numeric_limits<double>::infinity());
   for (const SurfacePatch& patch : patches) {
     for (std::size_t s = patch.begin; s < patch.end; ++s) {
       const BorderPiece<K>& piece = piece_at(s);
       facets_[s] = {piece.place(), piece.normal(), extent(piece, patch.depth), patch.cell};
       sorted_.push_back({0, s});
       for (std::size_t d = 0; d < dim; ++d) {
-        least[d] = std::min(least[d], facets_[s].place[d]);
-        most[d] = std::max(most[d], facets_[s].place[d]);
+        least_[d] = std::min(least_[d], facets_[s].place[d]);
+        most_[d] = std::max(most_[d], facets_[s].place[d]);
       }
     }
   }
   for (std::size_t d = 1; d < dim; ++d)
-    if (most[d] - least[d] > most[axis_] - least[axis_]) axis_ = d;
+    if (most_[d] - least_[d] > most_[axis_] - least_[axis_]) axis_ = d;
   for (Entry& entry : sorted_) entry.along = facets_[entry.piece].place[axis_];
   std::ranges::stable_sort(sorted_, {}, &Entry::along);
 }
@@ -151,7 +150,31 @@ template <Kinematics K>
 double FacetSearch<K>::depth(const Point<dim>& x) const {
   if (sorted_.empty()) return -std::numeric_limits<double>::infinity();
   const Facet& facet = facets_[nearest(x, [](std::size_t) { return true; })];
-  return -dot(difference(x, facet.place), facet.normal);
+  const Point<dim> offset = difference(x, facet.place);
+  const double below = -dot(offset, facet.normal), distance = std::sqrt(dot(offset, offset));
+  if (distance <= facet.extent) return below;
+  return holds(x) ? std::max(std::abs(below), distance - facet.extent) : -distance;
+}
+
+// Around an axis the border goes on at its other side.
+template <Kinematics K>
+bool FacetSearch<K>::holds(const Point<dim>& x) const {
+  const double reaches_to = K == Kinematics::axisymmetric ? -most_[0] : least_[0];
+  for (std::size_t d = 0; d < dim; ++d)
+    if (x[d] < (d == 0 ? reaches_to : least_[d]) || x[d] > most_[d]) return false;
+  double winding = 0;
+  const auto add = [&](const Point<dim>& place, const Point<dim>& normal, double area) {
+    const Point<dim> r = difference(place, x);
+    winding += area * dot(normal, r) / std::pow(dot(r, r), 0.5 * dim);
+  };
+  for (const Entry& entry : sorted_) {
+    const Facet& facet = facets_[entry.piece];
+    const double area = std::pow(facet.extent, dim - 1);
+    add(facet.place, facet.normal, area);
+    if constexpr (K == Kinematics::axisymmetric)
+      add({-facet.place[0], facet.place[1]}, {-facet.normal[0], facet.normal[1]}, area);
+  }
+  return winding > (dim == 3 ? 2 : 1) * std::numbers::pi;
 }
 
 template std::vector<BorderPiece<Kinematics::line>> moved_pieces(const ContactSurface<Kinematics::line>&,

@@ -7,6 +7,7 @@
 // away.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -35,8 +36,13 @@ class FacetSearch {
 
   /// The facet opposite to x, on a border with this normal; empty if there is none.
   std::optional<OppositeFacet<dim>> opposite(const Point<dim>& x, const Point<dim>& normal) const;
-  /// How deep x lies below the facet nearest to it [m]; negative outside.
+  /// How far x is from the border [m]; negative outside the body. Of an x further away than a piece is long it is known
+  /// by the whole border, which no facet beside a corner can belie: x is inside if the border winds around it,
+  ///
+  ///   Σ_s A_s n_s·r_s/|r_s|^d = 2 π, or 4 π in space, and 0 outside,   r_s = x_s − x.
   double depth(const Point<dim>& x) const;
+  /// The box that holds all of them, from and to.
+  std::array<Point<dim>, 2> box() const { return {least_, most_}; }
 
  private:
   struct Facet {
@@ -48,6 +54,7 @@ class FacetSearch {
     std::size_t piece;
   };
 
+  bool holds(const Point<dim>& x) const;
   template <class PieceAt>
   void list(std::span<const SurfacePatch> patches, const PieceAt& piece_at);
   template <class Counts>
@@ -57,6 +64,7 @@ class FacetSearch {
   void visit_near(double along, const Visit& visit) const;
 
   std::vector<Facet> facets_;  // (pieces)
+  Point<dim> least_, most_;    // the box of their positions
   std::size_t axis_ = 0;       // along which the surface is longest
   std::vector<Entry> sorted_;  // of the patches, by `along`
 };

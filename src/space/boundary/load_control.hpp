@@ -43,6 +43,10 @@ class LoadControl {
   /// Moves the loads at the end of a phase; in_place: of a stage of small strain, whose points stay where they are. u:
   /// over the grid's functions.
   void end_phase(const double* u, bool in_place);
+  /// Before the first phase of a run that begins with the points of another one.
+  void leave_placed(const WaysSincePlaced<dim>& ways) {
+    for (const auto& load : loads_) load->leave_placed(ways);
+  }
   void archive(const StateArchive& state);
   /// F_s += λ F at the prescribed degrees of freedom, at (t, u).
   void add_load_on_supports(const Parts& phase, double t, const double* u, Vec F_s) const;

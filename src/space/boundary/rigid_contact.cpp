@@ -76,14 +76,14 @@ void RigidContact<K>::refuse_points_inside(const Parts& phase, double t) const {
   for (std::size_t r = 0; r < bodies_.size(); ++r) {
     const TouchFinder<K>& finder = bodies_[r].finder();
     const RigidPlacement<N> placement = finder.placement(t);
-    const Intrusion corner = deepest_corner(r, placement, border);
-    if (corner.cells > 1 && !bodies_[r].was_there(corner.other))
+    const Intrusion surface = deepest_surface(r, placement, border);
+    if (surface.cells > 1 && !bodies_[r].was_there(surface.other))
       throw_scene_error(
           fmt::format("rigid[{}]", r),
           fmt::format(
-              "{} is inside body[{}]: its corner at ({:.6g}) is {:.3g} cells below the border when {}; expected a "
+              "{} is inside body[{}]: its surface at ({:.6g}) is {:.3g} cells below the border when {}; expected a "
               "hole in the body",
-              in_quotes(finder.spec().name), corner.other, fmt::join(corner.at, ", "), corner.cells, begin()));
+              in_quotes(finder.spec().name), surface.other, fmt::join(surface.at, ", "), surface.cells, begin()));
     const Intrusion deepest = deepest_point(r, placement, phase, nullptr);
     if (!(deepest.cells > most)) continue;
     throw_scene_error(
@@ -155,8 +155,17 @@ template <Kinematics K>
 void RigidContact<K>::take_over(const StateArchive& state) {
   is_later_stage_ = true;
   surface_.take_over(state.part("surface"));
-  for (RigidBody& rigid : bodies_)
+  for (RigidBody& rigid : bodies_) {
+    rigid.begin_on_surface();
     if (state.has_part(name_of(rigid))) rigid.take_over(state.part(name_of(rigid)));
+  }
+}
+
+template <Kinematics K>
+void RigidContact<K>::leave_placed(const WaysSincePlaced<dim>& ways) {
+  is_later_stage_ = false;
+  surface_.leave_placed(ways);
+  for (RigidBody& rigid : bodies_) rigid.begin_on_surface();
 }
 
 template <Kinematics K>

@@ -37,6 +37,8 @@ class RigidContact {
   void archive(const StateArchive& state);
   /// Before the first phase of a stage: takes over what the stage before remembers, as archive() saved it.
   void take_over(const StateArchive& state);
+  /// Before the first phase: moves borders to where another run has left them.
+  void leave_placed(const WaysSincePlaced<dim>& ways);
 
   /// The number of forces that add_force() writes: those of each rigid body on each patch, component by component.
   std::size_t forces() const { return of_each() * bodies_.size(); }
@@ -84,9 +86,9 @@ class RigidContact {
   /// The same of the border in patches that bear nothing; bearing: whether they do, (patches).
   Intrusion deepest_border(std::size_t r, const RigidPlacement<N>& placement, const std::vector<char>& bearing,
                            const double* u) const;
-  /// The corner of rigid body r that lies deepest below the border of a body; border: where its pieces are.
-  Intrusion deepest_corner(std::size_t r, const RigidPlacement<N>& placement,
-                           const std::vector<BorderPiece<K>>& border) const;
+  /// The place of its surface where rigid body r lies deepest below the border of a body; border: where its pieces are.
+  Intrusion deepest_surface(std::size_t r, const RigidPlacement<N>& placement,
+                            const std::vector<BorderPiece<K>>& border) const;
   Intrusion deepest_overlap(std::size_t r, std::size_t other, const std::vector<RigidPlacement<N>>& placements,
                             const Grid<dim>& grid) const;
 

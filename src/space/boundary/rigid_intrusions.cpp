@@ -20,6 +20,22 @@ void take_if_deeper(double cells, std::size_t other, const std::array<double, Di
   deepest.at.assign(x.begin(), x.end());
 }
 
+/// Calls visit(y) for places of a rigid body's surface in a box, about a cell apart: a box from which it is too far
+/// away has none of it, and another one is halved until it is as small as a cell.
+template <Kinematics K, class Position, class Placement, class Visit>
+void visit_surface(const TouchFinder<K>& finder, const Placement& placement, const Position& from, const Position& to,
+                   double cell, const Visit& visit) {
+  const Position middle = (from + to) / 2, sides = to - from;
+  const auto at = finder.nearest(middle, placement);
+  if (std::abs(at.distance) > sides.norm() / 2) return;
+  Eigen::Index longest = 0;
+  if (sides.maxCoeff(&longest) <= cell) return visit(Position(middle - at.distance * at.normal));
+  Position first_to = to, second_from = from;
+  first_to[longest] = second_from[longest] = middle[longest];
+  visit_surface(finder, placement, from, first_to, cell, visit);
+  visit_surface(finder, placement, second_from, to, cell, visit);
+}
+
 }  // namespace
 
 template <Kinematics K>
@@ -35,7 +51,7 @@ std::vector<Intrusion> RigidContact<K>::intrusions(const Parts& phase, double t,
     const std::vector<char> bearing = bodies_[r].bearing_patches(placements[r], u);
     const bool bears = std::ranges::any_of(bearing, [](char one) { return one != 0; });
     for (Intrusion one : {deepest_point(r, placements[r], phase, u), deepest_border(r, placements[r], bearing, u),
-                          deepest_corner(r, placements[r], border)}) {
+                          deepest_surface(r, placements[r], border)}) {
       one.bears = bears;
       take(std::move(one));
     }
@@ -56,7 +72,7 @@ Intrusion RigidContact<K>::deepest_point(std::size_t r, const RigidPlacement<N>&
   for (std::size_t k = 0; k < phase.points.cells(); ++k) {
     const double side = shortest_side(phase.grid, phase.weights.cell_at(k));
     for (std::size_t p = phase.points.begin(k); p < phase.points.end(k); ++p) {
-      Point<dim> x = phase.points.position(p);
+      Point<dim> x = phase.place_of(p);
       if (u) phase.weights.values(k, p, N_a);
       for (int a = 0; u && a < phase.weights.functions_of_cell(); ++a) {
         const double* const of_function = u + dim * phase.weights.function(k, a);
@@ -116,24 +132,28 @@ Intrusion RigidContact<K>::deepest_border(std::size_t r, const RigidPlacement<N>
   return deepest;
 }
 
-// A border that is pushed in goes around a corner: one that lies below it by more than a cell has gone in between.
+// A border that is pushed in goes around what pushes it: a surface that lies below it by more than a cell has gone in
+// between its pieces.
 template <Kinematics K>
-Intrusion RigidContact<K>::deepest_corner(std::size_t r, const RigidPlacement<N>& placement,
-                                          const std::vector<BorderPiece<K>>& border) const {
-  Intrusion deepest{.of = Intrusion::Of::corner, .rigid = r};
+Intrusion RigidContact<K>::deepest_surface(std::size_t r, const RigidPlacement<N>& placement,
+                                           const std::vector<BorderPiece<K>>& border) const {
+  Intrusion deepest{.of = Intrusion::Of::surface, .rigid = r};
   const TouchFinder<K>& finder = bodies_[r].finder();
-  const std::vector<std::vector<double>> corners = corners_of(finder.spec());
   for (const auto& part : surface_.parts()) {
-    if (corners.empty() || !finder.touches(part.body)) continue;
+    if (!finder.touches(part.body)) continue;
     const auto patches = surface_.patches().subspan(part.first_patch, part.end_patch - part.first_patch);
     if (patches.empty()) continue;
     const FacetSearch<K> search(patches, border);
-    for (const std::vector<double>& corner : corners) {
-      const Position at = placement.to_space(Position(corner.data()));
+    const double cell = std::ranges::min_element(patches, {}, &SurfacePatch::cell)->cell;
+    const auto look = [&](const Position& at) {
       Point<dim> x;
       for (int d = 0; d < dim; ++d) x[static_cast<std::size_t>(d)] = at[d];
-      take_if_deeper(search.depth(x) / patches.front().cell, part.body, x, deepest);
-    }
+      take_if_deeper(search.depth(x) / cell, part.body, x, deepest);
+    };
+    for (const std::vector<double>& corner : corners_of(finder.spec()))
+      look(placement.to_space(Position(corner.data())));
+    const auto [from, to] = search.box();
+    visit_surface(finder, placement, TouchFinder<K>::position_of(from), TouchFinder<K>::position_of(to), cell, look);
   }
   return deepest;
 }

@@ -50,6 +50,11 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
     for (Piece& piece : pieces_)
       if (!piece.freeze_in_single_phase(phase)) throw_scene_error("traction", "there is no material at this face");
   }
+  void leave_placed(const WaysSincePlaced<dim>& ways) override {
+    for (Piece& piece : pieces_)
+      if (const auto way = ways.at(piece.body, piece.X); way && !ways.in_place())
+        piece.leave_placed(*way, /*in_place=*/false);
+  }
   std::string_view kind() const override { return "tractions"; }
   bool varies() const override {
     return std::ranges::any_of(problem_.tractions, [](const TractionSpec& traction) {

@@ -115,8 +115,11 @@ class MaterialPointPhase final : public LagrangianPhase {
     } else {
       all_.remap.end_phase(t, u, v, all_.limit.largest_motion(u));
     }
-    auto carried =
-        std::make_unique<CarriedBodyOf<K>>(all_.problem, frame.body, frame.origin, frame.grid_moved, frame.phase, H);
+    std::unique_ptr<CarriedBodyOf<K>> carried;
+    frame.with_points_of_all([&] {
+      carried = std::make_unique<CarriedBodyOf<K>>(all_.problem, frame.body, frame.origin, frame.placed,
+                                                   frame.is_of_small_strain(), frame.grid_moved, frame.phase, H);
+    });
     all_.conditions.archive(StateArchive::saving(carried->conditions));
     carried->rest = all_.rest.record();
     if (!frame.moves_on()) return carried;

@@ -34,7 +34,9 @@ struct PhaseAssembly {
     frame.share_out_points();
     extend_into_slivers();
     if (begin.carried) {
-      conditions.take_over(begin.carried->conditions);
+      const auto* const points = static_cast<const CarriedBodyOf<K>*>(begin.carried);
+      conditions.take_over(points->conditions);
+      if (frame.begins_from_other_run(points)) conditions.leave_placed(*points, frame.grid);
       rest.take_over(begin.carried->rest);
     }
     begin_phase(begin.t);

@@ -43,19 +43,31 @@ struct PhaseFrame {
         total_mass(account().total_mass()),
         phase(carried ? carried->phase() : 0) {
     if (moves_on()) origin = account().positions();
-    if (carried) carried->take_origin(problem, body.first_number, origin);
-    if (carried && carried->phase() == 0 && !problem.initial_from.empty()) where_placed_ = account().positions();
+    if (carried) take_ways(*carried);
+    if (begins_from_other_run(carried)) where_placed_ = account().positions();
     set_initial_state(problem, body, origin);
     for (const auto& material : body.materials) wave_moduli.push_back(material->wave_modulus());
   }
   PhaseFrame(const PhaseFrame&) = delete;
   PhaseFrame& operator=(const PhaseFrame&) = delete;
 
+  /// Whether what it is given are the points of another run, and not of a stage of this one.
+  bool begins_from_other_run(const CarriedBodyOf<K>* carried) const {
+    return carried && carried->phase() == 0 && !problem.initial_from.empty();
+  }
   /// Leaves each rank with its own points.
   void share_out_points() {
     if (!ranks) return;
     cells_of_ranks = RankCells<dim>(grid, ranks->count());
     Migration<K>(*ranks, body).share_out(cells_of_ranks, grid);
+  }
+
+  /// Calls take() while each rank has the points of all, as one process would have them.
+  template <class Take>
+  void with_points_of_all(const Take& take) {
+    if (ranks) Migration<K>(*ranks, body).gather(grid);
+    take();
+    if (ranks) Migration<K>(*ranks, body).keep_own(cells_of_ranks, grid);
   }
 
   /// Evaluates the weights of the points where they are now, and the sums over the points at the grid's functions.
@@ -115,6 +127,11 @@ struct PhaseFrame {
   std::vector<double> wave_moduli;
   // Positions at the start of the run, by the points' numbers, (P × dim); empty if points do not move on.
   std::vector<double> origin;
+  // Where bodies were placed, likewise, if displacements count from later on, as another run has forgotten them; else
+  // empty.
+  std::vector<double> placed;
+  // The ways that points of small strain have gone before, which stay where they are, likewise [m]; else empty.
+  std::vector<double> gone;
   long phase;  // number of the phase
   PointWeights<B, K> weights;
   CornerSum corner_sum;
@@ -123,6 +140,17 @@ struct PhaseFrame {
   PhaseUnknowns unknowns{dim};
 
  private:
+  void take_ways(const CarriedBodyOf<K>& carried) {
+    const std::vector<double> now = origin;
+    if (carried.has_forgotten()) {
+      placed = now;
+      carried.take_placed(problem, body.first_number, placed);
+    }
+    carried.take_origin(problem, body.first_number, origin);
+    if (!carried.is_in_place()) return;
+    gone = now;
+    for (std::size_t i = 0; i < gone.size(); ++i) gone[i] -= placed.empty() ? origin[i] : placed[i];
+  }
   // The corners are sorted anew only if some cell has other functions than before.
   void number_corners() {
     constexpr int per_cell = Basis::per_cell;

@@ -59,7 +59,8 @@ class PhaseInertia {
   /// What the boundary conditions use of the phase.
   PhaseParts<dim> parts() const {
     return {frame_.grid,   frame_.functions, frame_.body.points, frame_.weights, frame_.corner_sum,
-            frame_.held(), frame_.dofs(),    node_mass(),        *mass_,         frame_.remembers};
+            frame_.held(), frame_.dofs(),    node_mass(),        *mass_,         frame_.remembers,
+            frame_.gone};
   }
   void archive(const StateArchive& state) { of_functions_.archive(state); }
 

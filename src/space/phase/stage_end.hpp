@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "parallel/of_all.hpp"
 #include "space/phase/internal_force.hpp"
 #include "space/phase/phase_frame.hpp"
 
@@ -22,9 +23,13 @@ class StageEnd {
   /// Adds the strain of a stage at (t, u) to that of the stages before. The points stay where they are, and at rest:
   /// the positions from which they have moved since the run began become others.
   void take_strains_in_place(double t, ConstVec u) const {
+    std::vector<double> all_moved(frame_.origin.size(), 0.0);
     visit(
         t, u, [&](std::size_t m, Block& block) { frame_.body.materials[m]->end_phase(block); },
-        [&](std::size_t, std::size_t number, int d, double moved) { frame_.origin[at(number, d)] -= moved; });
+        [&](std::size_t, std::size_t number, int d, double moved) { all_moved[at(number, d)] = moved; });
+    unite(frame_.ranks, Vec(all_moved));
+    for (std::vector<double>* const from : {&frame_.origin, &frame_.placed})
+      for (std::size_t i = 0; i < from->size(); ++i) (*from)[i] -= all_moved[i];
     for (auto& v : frame_.body.points.v) std::ranges::fill(v, 0.0);
     ++frame_.phase;
   }

@@ -109,12 +109,16 @@ class CarriedBodyOf final : public CarriedBody {
 
  public:
   CarriedBodyOf() = default;
-  /// Of bodies that have come to the end of a phase; origin: see PhaseFrame; H: see CarriedMaterial.
-  CarriedBodyOf(const Problem& problem, Body<K>& body, const std::vector<double>& origin, double grid_moved, long phase,
+  /// Of bodies that have come to the end of a phase; origin, placed: see PhaseFrame; in_place: of small strain, whose
+  /// points stay where they are; H: see CarriedMaterial.
+  CarriedBodyOf(const Problem& problem, Body<K>& body, const std::vector<double>& origin,
+                const std::vector<double>& placed, bool in_place, double grid_moved, long phase,
                 const std::vector<TensorOf<K>>& H)
       : points_(body.points),
         first_number_(body.first_number),
         origin_(origin),
+        placed_(placed),
+        in_place_(in_place),
         grid_moved_(grid_moved),
         phase_(phase) {
     for (const BodySpec& spec : problem.bodies) {
@@ -182,18 +186,42 @@ class CarriedBodyOf final : public CarriedBody {
     while (p >= materials_[m].begin + materials_[m].count) ++m;
     return materials_[m];
   }
+  /// Where the points of body b were placed, and how far each has moved since [m].
+  std::pair<MaterialPoints<dim>, std::array<std::vector<double>, dim>> ways_of(std::size_t b) const {
+    const std::vector<double>& from = where_placed();
+    MaterialPoints<dim> placed;
+    std::array<std::vector<double>, dim> moved;
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      const int number = points_.number[p];
+      if (number < first_number_[b] || number >= first_number_[b + 1]) continue;
+      for (std::size_t d = 0; d < dim; ++d) {
+        const double X = from[dim * static_cast<std::size_t>(number) + d];
+        moved[d].push_back(points_.x[d][p] - X);
+        placed.x[d].push_back(in_place_ ? points_.x[d][p] : X);
+      }
+      placed.volume.push_back(points_.volume[p]);
+      placed.mass.push_back(points_.mass[p]);
+      placed.number.push_back(number);
+    }
+    return {std::move(placed), std::move(moved)};
+  }
+  /// Whether they have moved so by displacements that left them in place, at small strain.
+  bool is_in_place() const { return in_place_; }
   /// Replaces the positions at the start of the run of those points that are carried on; body: as it goes on.
   void take_origin(const Problem& problem, const std::vector<int>& first_number, std::vector<double>& origin) const {
-    for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
-      if (const auto b = find(problem.bodies[k]))
-        std::copy_n(origin_.begin() + static_cast<std::ptrdiff_t>(dim) * first_number_[*b], dim * numbers_of(*b),
-                    origin.begin() + static_cast<std::ptrdiff_t>(dim) * first_number[k]);
-    }
+    take(origin_, problem, first_number, origin);
   }
+  /// The same of where their bodies were placed, which another run may have begun after.
+  void take_placed(const Problem& problem, const std::vector<int>& first_number, std::vector<double>& placed) const {
+    take(where_placed(), problem, first_number, placed);
+  }
+  /// Whether displacements count from later on.
+  bool has_forgotten() const { return !placed_.empty(); }
   void begin_other_run(const std::vector<std::size_t>& numbers, bool forgets) override {
     bodies_ = numbers;
     for (auto& v : points_.v) std::ranges::fill(v, 0.0);
     for (auto& B : points_.B_apic) std::ranges::fill(B, 0.0);
+    if (forgets && placed_.empty()) placed_ = origin_;
     for (std::size_t p = 0; p < points_.size() && forgets; ++p) {
       for (std::size_t d = 0; d < dim; ++d)
         origin_[dim * static_cast<std::size_t>(points_.number[p]) + d] = points_.x[d][p];
@@ -215,8 +243,10 @@ class CarriedBodyOf final : public CarriedBody {
     for (std::size_t ij = 0; ij < points_.B_apic.size(); ++ij) state(fmt::format("B_{}", ij), points_.B_apic[ij]);
     const StateArchive domains = state.part("domains");
     if (state.restores() ? state.has_part("domains") : points_.has_domains()) archive_domains(domains);
+    if (state.restores() ? state.has_part("placed") : !placed_.empty()) state.part("placed")("positions", placed_);
     state("volume", points_.volume, "mass", points_.mass, "density", density_, "number", points_.number, "bodies",
-          bodies_, "first_number", first_number_, "origin", origin_, "grid_moved", grid_moved_, "phase", phase_);
+          bodies_, "first_number", first_number_, "origin", origin_, "in_place", in_place_, "grid_moved", grid_moved_,
+          "phase", phase_);
     std::size_t count = materials_.size();
     state("materials", count);
     if (count > points_.size()) throw StateError("it has more materials than points");
@@ -229,6 +259,15 @@ class CarriedBodyOf final : public CarriedBody {
   }
 
  private:
+  const std::vector<double>& where_placed() const { return placed_.empty() ? origin_ : placed_; }
+  void take(const std::vector<double>& from, const Problem& problem, const std::vector<int>& first_number,
+            std::vector<double>& to) const {
+    for (std::size_t k = 0; k < problem.bodies.size(); ++k) {
+      if (const auto b = find(problem.bodies[k]))
+        std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(dim) * first_number_[*b], dim * numbers_of(*b),
+                    to.begin() + static_cast<std::ptrdiff_t>(dim) * first_number[k]);
+    }
+  }
   void archive_domains(const StateArchive& state) {
     for (std::size_t c = 0; c < points_.corner.size(); ++c) state(fmt::format("corner_{}", c), points_.corner[c]);
     for (std::size_t d = 0; d < dim; ++d)
@@ -242,6 +281,7 @@ class CarriedBodyOf final : public CarriedBody {
                 first_number_.size() == bodies_.size() + 1 && !first_number_.empty() && first_number_.front() == 0 &&
                 std::ranges::is_sorted(first_number_) &&
                 origin_.size() == static_cast<std::size_t>(dim) * static_cast<std::size_t>(first_number_.back());
+    fits = fits && (placed_.empty() || placed_.size() == origin_.size());
     for (int d = 0; d < dim; ++d)
       fits = fits && points_.x[d].size() == n && (points_.v[d].empty() || points_.v[d].size() == n);
     for (const auto& B : points_.B_apic) fits = fits && (B.empty() || B.size() == n);
@@ -263,7 +303,9 @@ class CarriedBodyOf final : public CarriedBody {
   std::vector<std::size_t> bodies_;  // BodySpec::number of each
   std::vector<int> first_number_;
   std::vector<CarriedMaterial<K>> materials_;
-  std::vector<double> origin_;
+  std::vector<double> origin_;   // (P × dim) [m]
+  std::vector<double> placed_;   // where bodies were placed, if displacements count from later on; else empty
+  bool in_place_ = false;        // see the constructor
   std::vector<double> density_;  // of each point [kg/m³]
   double grid_moved_ = 0;
   long phase_ = 0;

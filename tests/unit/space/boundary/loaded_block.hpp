@@ -148,7 +148,7 @@ class LoadedBlock {
     for (const auto& load : loads_) load->begin_phase(parts(), constant_force_);
   }
   PhaseParts<2> parts() const {
-    return {grid_, functions_, body_.points, weights_, corner_sum_, held_, *dofs_, node_mass_, *mass_, false};
+    return {grid_, functions_, body_.points, weights_, corner_sum_, held_, *dofs_, node_mass_, *mass_, false, gone_};
   }
 
   const Scene scene_;
@@ -162,7 +162,7 @@ class LoadedBlock {
   HeldUnknowns held_;
   std::size_t held_size_ = 0;
   std::optional<DegreesOfFreedom> dofs_;
-  std::vector<double> node_mass_, constant_force_;
+  std::vector<double> node_mass_, constant_force_, gone_;
   std::optional<Mass> mass_;
 };
 
