@@ -9,10 +9,11 @@
 
 namespace stillpoint {
 
-/// The folder that this process writes into; empty: it leaves no files.
+inline bool leaves_files(const SimulationOptions& options) { return !options.ranks || options.ranks->rank() == 0; }
+
+/// The folder of the run that this process writes into; empty: it leaves no files, or there is no folder.
 inline std::filesystem::path own_folder(const SimulationOptions& options) {
-  const bool is_first = !options.ranks || options.ranks->rank() == 0;
-  return is_first ? options.out : std::filesystem::path();
+  return leaves_files(options) ? options.out : std::filesystem::path();
 }
 
 }  // namespace stillpoint

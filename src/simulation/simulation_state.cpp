@@ -71,7 +71,7 @@ void Simulation::Impl::save(const fs::path& to) {
   SavedState state;
   origin_of(run_->scene).archive(StateArchive::saving(state).part("origin"));
   archive(StateArchive::saving(state));
-  if (!own_folder(run_->options).empty()) write_checkpoint(to, state);
+  if (leaves_files(run_->options)) write_checkpoint(to, state);
 }
 
 void Simulation::Impl::resume(const fs::path& from) {

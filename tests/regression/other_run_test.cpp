@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "says.hpp"
 #include "scenes.hpp"
 #include "temporary_folder.hpp"
 
@@ -109,6 +110,17 @@ TEST_CASE("a checkpoint that is none, or of other bodies, is refused where the s
           "body[0].thickness=2: must be that of the other run, 1, whose points the body takes over, not 2"));
   CHECK_THAT(scenes::refusal("ladder/lifts", with(set, {"initial.displacements=zero"})),
              Catch::Contains("goes with from, another run"));
+}
+
+TEST_CASE("a body of another shape than in the other run, of which a border is needed, is refused") {
+  const test::TemporaryFolder folder;
+  const std::vector<std::string> set = column_of("law=hencky");
+  const std::string from = "initial.from=" + leaves(folder, set).string();
+  const std::string plate = "rigid=[{name='plate', half_plane=[[0, '5*h'], [0, -1]], motion=['0', '0']}]";
+  CHECK_THROWS_WITH(run(scenes::load("ladder/lifts",
+                                     with(set, {from, plate, "body[0].max=['h', '5*h']", "solve.method=relaxation"}))),
+                    Catch::Contains("the other run placed no material point near") &&
+                        Catch::Contains("expected bodies of the same shape in both"));
 }
 
 TEST_CASE("supports hold a body of another run wherever it has moved to, and its ground stays at rest") {
@@ -316,6 +328,24 @@ TEST_CASE("a body bears its traction in another run as where it began, on the bo
     CHECK(after.status == RunStatus::equilibrium);
     CHECK(scenes::probe(after, "mid", "stress.xx") == Approx(scenes::probe(before, "mid", "stress.xx")).epsilon(2e-3));
   }
+}
+
+TEST_CASE("points that another run has drawn apart, so that cells have more of them and fewer, are told") {
+  const std::string block =
+      "dim = 2\n[grid]\nmin = [0, 0]\nmax = [2, 2]\ncells = [8, 8]\n[[body]]\nname = 'block'\nmax = [1, 1]\n"
+      "material = 'm'\n[material.m]\nlaw = 'hencky'\nE = 1e5\nnu = 0\nrho = 1000\n"
+      "[[support]]\nface = 'left'\nkind = 'roller'\n[[support]]\nface = 'bottom'\nkind = 'roller'\n"
+      "[[traction]]\nline = [[1, 0], [1, 1]]\nvalue = ['P', 0]\n[constants]\nP = '1e5*ln(1.5)/1.5'\n"
+      "[damping]\nstrategy = 'auto'\n[stop]\nresidual = 1e-8\n[checkpoint]\nevery_steps = 100000\n";
+  const auto next_of = [&](const std::vector<std::string>& set) {
+    const test::TemporaryFolder folder;
+    REQUIRE(
+        run(load_scene("scene.toml", block, with(set, {"initial.u=['0.5*x', 0]"})), {.out = folder.path()}).status ==
+        RunStatus::equilibrium);
+    return scenes::run_text(block, with(set, {"initial.from=" + (folder.path() / "checkpoint.h5").string()}));
+  };
+  CHECK(test::says(next_of({}), "the points that the other run has moved fill cells inside the body by 0.75 to 1.5 of them"));
+  CHECK_FALSE(test::says(next_of({"constants.P=0.1"}), "fill cells inside the body"));
 }
 
 TEST_CASE("a stage that changes nothing, and a run that begins at rest with another's points, are in equilibrium") {

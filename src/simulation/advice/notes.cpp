@@ -285,6 +285,7 @@ std::vector<std::string> accuracy_notes(const Problem& problem, const Lagrangian
   if (std::optional<std::string> note = locking_note(problem)) notes.push_back(std::move(*note));
   if (std::optional<std::string> note = slender_cells_note(problem)) notes.push_back(std::move(*note));
   if (std::optional<std::string> note = hourglass_note(problem)) notes.push_back(std::move(*note));
+  if (std::optional<std::string> note = uneven_points_note(problem, phase)) notes.push_back(std::move(*note));
   return notes;
 }
 

@@ -22,6 +22,8 @@ std::vector<std::string> accuracy_notes(const Problem& problem, const Lagrangian
 std::optional<std::string> locking_note(const Problem& problem);
 /// A note on long cells of a linear basis, which lock where the body bends; empty if they are not that long.
 std::optional<std::string> slender_cells_note(const Problem& problem);
+/// A note if the run begins with points of another one that fill the cells of its grid unevenly.
+std::optional<std::string> uneven_points_note(const Problem& problem, const LagrangianPhase& phase);
 /// A note if the grid has motions of its own in space that strain no point.
 std::optional<std::string> hourglass_note(const Problem& problem);
 

@@ -14,6 +14,7 @@
 
 #include "scene/contact_bodies.hpp"
 #include "scene/grid_lines.hpp"
+#include "simulation/placed_points.hpp"
 #include "simulation/watcher.hpp"
 
 namespace stillpoint {
@@ -25,40 +26,12 @@ struct Overlap {
   std::vector<double> at{};  // a position in one of them [m]
 };
 
-/// What a point takes of its cell at its present position, as a share of the cell.
-double share_of_cell(const Problem& problem, std::size_t body, ConstVec x, double volume) {
-  double cell = problem.dim < 3 ? problem.bodies[body].area : 1;
-  if (problem.state == StressState::axisymmetric) cell = 2 * std::numbers::pi * std::max(x[0], 0.0);
-  for (std::size_t d = 0; d < x.size(); ++d) cell *= cell_length_at(problem.grid, d, x[d]);
-  return cell > 0 ? volume / cell : 0;
-}
-
 /// How full a block can be of two bodies that touch in it: each may have half the distance of its points too much.
 double fullest(const Problem& problem, std::size_t a, std::size_t b) {
   int fewest = 2;  // points along an axis of a cell
   for (const std::size_t k : {a, b})
     for (const int points : problem.bodies[k].points_per_cell) fewest = std::min(fewest, points);
   return 1.1 + 1.0 / fewest;
-}
-
-/// The points at (t, u), and what each takes of its cell.
-struct PlacedPoints {
-  std::size_t dim = 0;
-  std::vector<int> bodies;
-  std::vector<double> x, share;  // (P × dim) [m], (P)
-};
-PlacedPoints place_points(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
-  const auto dim = static_cast<std::size_t>(problem.dim);
-  const PointData data = phase.fields().point_data();
-  PlacedPoints placed{.dim = dim, .bodies = data.bodies, .x = data.initial_positions, .share = data.volumes};
-  std::vector<double> way(placed.x.size());
-  phase.fields().point_displacement(t, u, way);
-  for (std::size_t k = 0; k < way.size(); ++k) placed.x[k] += way[k];
-  phase.fields().point_field(PointQuantity::volume, t, u, placed.share);
-  for (std::size_t p = 0; p < placed.share.size(); ++p)
-    placed.share[p] = share_of_cell(problem, static_cast<std::size_t>(data.bodies[p]),
-                                    ConstVec(placed.x).subspan(dim * p, dim), placed.share[p]);
-  return placed;
 }
 
 /// Calls visit(a, b, what a fills, what b fills, a position) for each pair of bodies in a block of so many cells along

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "space/boundary/carried_point.hpp"
+#include "space/boundary/way_since_placed.hpp"
 #include "space/kernels/change_of_volume.hpp"
-#include "space/points/way_since_placed.hpp"
 
 namespace stillpoint {
 

@@ -11,11 +11,11 @@
 #include "space/boundary/condition_reports.hpp"
 #include "space/boundary/face_gaps.hpp"
 #include "space/boundary/prescribed_motion.hpp"
+#include "space/boundary/way_since_placed.hpp"
 #include "space/grid/degrees_of_freedom.hpp"
 #include "space/grid/matrix_entries.hpp"
 #include "space/kernels/point_functions.hpp"
 #include "space/points/material_points.hpp"
-#include "space/points/way_since_placed.hpp"
 
 namespace stillpoint {
 

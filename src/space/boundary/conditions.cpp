@@ -8,7 +8,7 @@
 
 #include "space/boundary/body_contact.hpp"
 #include "space/boundary/rigid_contact.hpp"
-#include "space/points/way_since_placed.hpp"
+#include "space/boundary/way_since_placed.hpp"
 
 namespace stillpoint {
 namespace {

@@ -240,7 +240,8 @@ class Migration {
         for (std::size_t k = 0; k < place.size(); ++k) taken[row * place.size() + k] = pool[place[k]];
       }
       memory_now.push_back(std::move(taken));
-      std::ranges::stable_sort(from[m], {}, [&](int p) { return before[static_cast<std::size_t>(p)]; });
+      const std::vector<int> unsorted = from[m];
+      for (std::size_t k = 0; k < place.size(); ++k) from[m][k] = unsorted[place[k]];
     }
     cells = chosen(cells, take_chosen(from));
     for (std::size_t m = 0; m < memory_now.size(); ++m)

@@ -77,8 +77,22 @@ TEST_CASE("rigid bodies and driven loads in stages that cannot be are refused by
              Catch::Contains("there is no body 'lift 7'"));
   CHECK_THAT(refusal("{at=1}", {"solve.method=relaxation", "load={displacement='t', at=2}", "stop.time=4"}),
              Catch::Contains("load.at: must be the time of a [[stage]], and there is none at t = 2"));
-  CHECK_THAT(refusal("{at=1}", {"initial.from='other.h5'", plate}),
-             Catch::Contains("the border of a body that another run has strained is not known"));
+}
+
+TEST_CASE("elastic boxes that move on by phases represent domains in all stages, or in none if a later body cannot") {
+  const auto quadrature = [](const std::vector<std::string>& more) {
+    return scenes::load("ladder/lifts", scenes::with({"solve.method=relaxation", "damping.strategy=viscous",
+                                                      "phase.max_motion=0.1", "material.fill.law=hencky"},
+                                                     more))
+        .phase.quadrature.value();
+  };
+  CHECK(quadrature({}) == Quadrature::domains);
+  CHECK(quadrature({"phase.quadrature=points"}) == Quadrature::points);
+  CHECK(quadrature({"phase.max_motion=none"}) == Quadrature::points);
+  CHECK(quadrature({"body[4].placement=gauss"}) == Quadrature::points);
+  const std::string soil = "material.soil={law='drucker-prager', E=1e7, nu=0.3, rho=1800, c=1e4, phi=30}";
+  CHECK(quadrature({soil, "body[5].material=soil"}) == Quadrature::points);
+  CHECK(quadrature({soil, "stage[4].change=['lift 1']", "stage[4].material=['soil']"}) == Quadrature::points);
 }
 
 TEST_CASE("a ramp is half of its stage, and an open last stage is as long as the one before") {

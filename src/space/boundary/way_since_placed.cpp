@@ -1,4 +1,4 @@
-#include "space/points/way_since_placed.hpp"
+#include "space/boundary/way_since_placed.hpp"
 
 #include <array>
 #include <cmath>
