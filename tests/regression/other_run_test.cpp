@@ -344,7 +344,8 @@ TEST_CASE("points that another run has drawn apart, so that cells have more of t
         RunStatus::equilibrium);
     return scenes::run_text(block, with(set, {"initial.from=" + (folder.path() / "checkpoint.h5").string()}));
   };
-  CHECK(test::says(next_of({}), "the points that the other run has moved fill cells inside the body by 0.75 to 1.5 of them"));
+  CHECK(test::says(next_of({}),
+                   "the points that the other run has moved fill cells inside the body by 0.75 to 1.5 of them"));
   CHECK_FALSE(test::says(next_of({"constants.P=0.1"}), "fill cells inside the body"));
 }
 

@@ -11,7 +11,7 @@
 #include "scene/grid_lines.hpp"
 #include "scene/resolve.hpp"
 #include "simulation/advice/notes.hpp"
-#include "simulation/placed_points.hpp"
+#include "simulation/advice/placed_points.hpp"
 
 namespace stillpoint {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "scene/contact_bodies.hpp"
 #include "scene/grid_lines.hpp"
-#include "simulation/placed_points.hpp"
+#include "simulation/advice/placed_points.hpp"
 #include "simulation/watcher.hpp"
 
 namespace stillpoint {

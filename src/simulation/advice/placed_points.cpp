@@ -1,4 +1,4 @@
-#include "simulation/placed_points.hpp"
+#include "simulation/advice/placed_points.hpp"
 
 #include <algorithm>
 #include <numbers>
