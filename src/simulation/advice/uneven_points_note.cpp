@@ -46,7 +46,7 @@ bool is_inside(const std::map<Cell, double>& filled, const Cell& cell, int dim) 
 std::optional<std::string> uneven_points_note(const Problem& problem, const LagrangianPhase& phase) {
   if (problem.initial_from.empty() || problem.phase.quadrature == Quadrature::domains) return std::nullopt;
   const bool is_linear = problem.grid.basis == BasisKind::linear;
-  const double negligible = is_linear ? 0.1 : 0.3;  // wider functions feel less of it
+  const double unfelt = is_linear ? 0.1 : 0.3;  // wider functions feel less of it
   const std::map<Cell, double> filled = filled_cells(problem, phase);
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const auto& [cell, share] : filled) {
@@ -54,7 +54,7 @@ std::optional<std::string> uneven_points_note(const Problem& problem, const Lagr
     least = std::min(least, share);
     most = std::max(most, share);
   }
-  if (!(std::max(1 - least, most - 1) > negligible)) return std::nullopt;
+  if (!(std::max(1 - least, most - 1) > unfelt)) return std::nullopt;
   return fmt::format(
       "the points that the other run has moved fill cells inside the body by {:.2g} to {:.2g} of them: what they "
       "integrate is off by about as much from cell to cell, and so is a stress that was in balance there; expected {}",
