@@ -148,7 +148,7 @@ auto FacetSearch<K>::opposite(const Point<dim>& x, const Point<dim>& normal) con
 
 template <Kinematics K>
 double FacetSearch<K>::depth(const Point<dim>& x) const {
-  if (sorted_.empty()) return -std::numeric_limits<double>::infinity();
+  if (sorted_.empty() || !is_in_box(x)) return -std::numeric_limits<double>::infinity();
   const Facet& facet = facets_[nearest(x, [](std::size_t) { return true; })];
   const Point<dim> offset = difference(x, facet.place);
   const double below = -dot(offset, facet.normal), distance = std::sqrt(dot(offset, offset));
@@ -158,10 +158,15 @@ double FacetSearch<K>::depth(const Point<dim>& x) const {
 
 // Around an axis the border goes on at its other side.
 template <Kinematics K>
-bool FacetSearch<K>::holds(const Point<dim>& x) const {
+bool FacetSearch<K>::is_in_box(const Point<dim>& x) const {
   const double reaches_to = K == Kinematics::axisymmetric ? -most_[0] : least_[0];
   for (std::size_t d = 0; d < dim; ++d)
     if (x[d] < (d == 0 ? reaches_to : least_[d]) || x[d] > most_[d]) return false;
+  return true;
+}
+
+template <Kinematics K>
+bool FacetSearch<K>::holds(const Point<dim>& x) const {
   double winding = 0;
   const auto add = [&](const Point<dim>& place, const Point<dim>& normal, double area) {
     const Point<dim> r = difference(place, x);

@@ -36,8 +36,9 @@ class FacetSearch {
 
   /// The facet opposite to x, on a border with this normal; empty if there is none.
   std::optional<OppositeFacet<dim>> opposite(const Point<dim>& x, const Point<dim>& normal) const;
-  /// How far x is from the border [m]; negative outside the body. Of an x further away than a piece is long it is known
-  /// by the whole border, which no facet beside a corner can belie: x is inside if the border winds around it,
+  /// How far x is from the border [m]; negative outside the body, far outside −∞. Of an x further away than a piece is
+  /// long it is known by the whole border, which no facet beside a corner can belie: x is inside if the border winds
+  /// around it,
   ///
   ///   Σ_s A_s n_s·r_s/|r_s|^d = 2 π, or 4 π in space, and 0 outside,   r_s = x_s − x.
   double depth(const Point<dim>& x) const;
@@ -54,6 +55,7 @@ class FacetSearch {
     std::size_t piece;
   };
 
+  bool is_in_box(const Point<dim>& x) const;
   bool holds(const Point<dim>& x) const;
   template <class PieceAt>
   void list(std::span<const SurfacePatch> patches, const PieceAt& piece_at);
