@@ -135,8 +135,10 @@ class MovingPlace final : public Probe {
   }
   std::optional<std::string> note() const override {
     if (waits_)
-      return fmt::format("probe {}: no stage has brought material to its place ({:.6g}) so far, and its values are nan",
-                         name_, fmt::join(start_, ", "));
+      return fmt::format(
+          "probe {}: neither a stage nor another run has brought material to its place ({:.6g}) so far, and its values "
+          "are nan",
+          name_, fmt::join(start_, ", "));
     if (!lost_at_) return std::nullopt;
     return fmt::format(
         "probe {}: no material reaches its place ({:.6g}) since t = {:.6g} s, and its values are nan; "

@@ -95,18 +95,18 @@ void BodyContact<K>::oppose(Pair& pair, const Parts& phase) const {
 template <Kinematics K>
 void BodyContact<K>::refuse_overlap(const Pair& pair) const {
   constexpr double most = 0.5;  // [cells]
+  Intrusion deepest;
   for (const auto& patch : pair.first.patches()) {
-    for (std::size_t s = patch.begin; s < patch.end; ++s) {
-      if (!pair.force.finder().is_there(s)) continue;
-      const double cells = -pair.force.finder().gap_at_start(s) / patch.cell;
-      if (!(cells > most)) continue;
-      throw_scene_error(fmt::format("contact[{}].bodies", pair.number),
-                        fmt::format("{} and {} overlap by {:.3g} cells at ({:.6g}) when the second of them appears; "
-                                    "expected at most half a cell",
-                                    in_quotes(pair.spec.bodies[0]), in_quotes(pair.spec.bodies[1]), cells,
-                                    fmt::join(pair.first.start(s), ", ")));
-    }
+    for (std::size_t s = patch.begin; s < patch.end; ++s)
+      if (pair.force.finder().is_there(s))
+        deepest.take(-pair.force.finder().gap_at_start(s) / patch.cell, 0, pair.first.start(s));
   }
+  if (!(deepest.cells > most)) return;
+  throw_scene_error(fmt::format("contact[{}].bodies", pair.number),
+                    fmt::format("{} and {} overlap by {:.3g} cells at ({:.6g}) when the second of them appears; "
+                                "expected at most half a cell",
+                                in_quotes(pair.spec.bodies[0]), in_quotes(pair.spec.bodies[1]), deepest.cells,
+                                fmt::join(deepest.at, ", ")));
 }
 
 template <Kinematics K>

@@ -53,10 +53,7 @@ void find_deepest(const MovedBorder<K>& border, const MovedBorder<K>& other, boo
       // Beside an edge that it has gone past, it is not known on which side of a facet a place is.
       constexpr double known = 0.5;  // [cells]
       if (!(cells > (facet ? negligible : known))) continue;
-      Intrusion& found = deepest[border.bears_beside(s, patch.cell) ? 1 : 0];
-      if (!(cells > found.cells)) continue;
-      found.cells = cells;
-      found.at.assign(x.begin(), x.end());
+      deepest[border.bears_beside(s, patch.cell) ? 1 : 0].take(cells, 0, x);
     }
   }
 }

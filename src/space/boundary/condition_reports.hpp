@@ -68,6 +68,15 @@ struct Intrusion {
   double cells = 0;                  // the depth [cells]
   bool bears = false;                // whether anything presses on the rigid body
   std::vector<double> at{};          // [m]
+
+  /// Takes another place if it is deeper. x: its position.
+  template <std::size_t Dim>
+  void take(double depth, std::size_t in, const std::array<double, Dim>& x) {
+    if (!(depth > cells)) return;
+    cells = depth;
+    other = in;
+    at.assign(x.begin(), x.end());
+  }
 };
 
 /// Contact with rigid bodies, and of bodies with each other.

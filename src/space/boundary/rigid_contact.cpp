@@ -54,17 +54,17 @@ void RigidContact<K>::refuse_overlaps(double t) const {
   for (std::size_t r = 0; r < bodies_.size(); ++r) {
     const TouchFinder<K>& finder = bodies_[r].finder();
     const RigidPlacement<N> placement = finder.placement(t);
+    Intrusion deepest;
     for (const auto& patch : surface_.patches()) {
       if (!finder.touches(patch.body) || bodies_[r].was_there(patch.body)) continue;
-      for (std::size_t s = patch.begin; s < patch.end; ++s) {
-        const double cells = -finder.distance(surface_.start(s), placement) / patch.cell;
-        if (!(cells > most)) continue;
-        throw_scene_error(
-            fmt::format("rigid[{}]", r),
-            fmt::format("{} overlaps body[{}] by {:.3g} cells at ({:.6g}) when {}; expected at most half a cell",
-                        in_quotes(finder.spec().name), patch.body, cells, fmt::join(surface_.start(s), ", "), begin()));
-      }
+      for (std::size_t s = patch.begin; s < patch.end; ++s)
+        deepest.take(-finder.distance(surface_.start(s), placement) / patch.cell, patch.body, surface_.start(s));
     }
+    if (!(deepest.cells > most)) continue;
+    throw_scene_error(
+        fmt::format("rigid[{}]", r),
+        fmt::format("{} overlaps body[{}] by {:.3g} cells at ({:.6g}) when {}; expected at most half a cell",
+                    in_quotes(finder.spec().name), deepest.other, deepest.cells, fmt::join(deepest.at, ", "), begin()));
   }
 }
 

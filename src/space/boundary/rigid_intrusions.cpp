@@ -12,14 +12,6 @@
 namespace stillpoint {
 namespace {
 
-template <std::size_t Dim>
-void take_if_deeper(double cells, std::size_t other, const std::array<double, Dim>& x, Intrusion& deepest) {
-  if (!(cells > deepest.cells)) return;
-  deepest.cells = cells;
-  deepest.other = other;
-  deepest.at.assign(x.begin(), x.end());
-}
-
 /// Calls visit(y) for places of a rigid body's surface in a box, about a cell apart: a box from which it is too far
 /// away has none of it, and another one is halved until it is as small as a cell.
 template <Kinematics K, class Position, class Placement, class Visit>
@@ -82,7 +74,7 @@ Intrusion RigidContact<K>::deepest_point(std::size_t r, const RigidPlacement<N>&
       if (!(cells > deepest.cells)) continue;
       const std::size_t body = body_of(first_number_, phase.points.number[p]);
       const bool is_looked_at = u || !bodies_[r].was_there(body);
-      if (is_looked_at && finder.touches(body)) take_if_deeper(cells, body, x, deepest);
+      if (is_looked_at && finder.touches(body)) deepest.take(cells, body, x);
     }
   }
   if (const Ranks* ranks = phase.corner_sum.ranks()) {
@@ -94,7 +86,7 @@ Intrusion RigidContact<K>::deepest_point(std::size_t r, const RigidPlacement<N>&
     OfRank mine{deepest.cells, deepest.other, {}};
     std::ranges::copy(deepest.at, mine.x.begin());
     for (const OfRank& of : of_all(ranks, mine))
-      if (of.cells > deepest.cells) take_if_deeper(of.cells, of.other, of.x, deepest);
+      if (of.cells > deepest.cells) deepest.take(of.cells, of.other, of.x);
   }
   return deepest;
 }
@@ -124,7 +116,7 @@ Intrusion RigidContact<K>::deepest_border(std::size_t r, const RigidPlacement<N>
           const double share = look * (1.0 / looks), along = (1 - share) * -to_end[i] + share * (length + to_end[j]);
           Point<dim> between;
           for (std::size_t d = 0; d < dim; ++d) between[d] = x[i][d] + along / length * (x[j][d] - x[i][d]);
-          take_if_deeper(-finder.distance(between, placement) / patches[k].cell, patches[k].body, between, deepest);
+          deepest.take(-finder.distance(between, placement) / patches[k].cell, patches[k].body, between);
         }
       }
     }
@@ -148,7 +140,7 @@ Intrusion RigidContact<K>::deepest_surface(std::size_t r, const RigidPlacement<N
     const auto look = [&](const Position& at) {
       Point<dim> x;
       for (int d = 0; d < dim; ++d) x[static_cast<std::size_t>(d)] = at[d];
-      take_if_deeper(search.depth(x) / cell, part.body, x, deepest);
+      deepest.take(search.depth(x) / cell, part.body, x);
     };
     for (const std::vector<double>& corner : corners_of(finder.spec()))
       look(placement.to_space(Position(corner.data())));
@@ -202,7 +194,7 @@ Intrusion RigidContact<K>::deepest_overlap(std::size_t r, std::size_t other,
     if (!nearer) way /= 2;
   }
   Intrusion deepest{.of = Intrusion::Of::rigid, .rigid = r};
-  take_if_deeper(most / side, other, best, deepest);
+  deepest.take(most / side, other, best);
   return deepest;
 }
 
