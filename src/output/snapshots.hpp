@@ -43,6 +43,7 @@ class Snapshots {
   void take(double t, ConstVec u, ConstVec v);
   /// Opens the files; frames: those of a run that is continued.
   void open(std::size_t frames);
+
   const Problem& problem_;
   const LagrangianPhase& phase_;
   bool gathers_;

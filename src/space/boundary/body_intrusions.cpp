@@ -1,9 +1,10 @@
 // Where bodies of a contact lie in each other without feeling it. A piece of a border presses on the facet that was
 // opposite to it when the phase began: one that had none, or comes to another part of the other border, meets nothing,
 // nor does one that is deep in the other body, where no facet is opposite.
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "space/boundary/body_contact.hpp"
 #include "space/boundary/facet_search.hpp"

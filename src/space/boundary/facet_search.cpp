@@ -148,7 +148,7 @@ auto FacetSearch<K>::opposite(const Point<dim>& x, const Point<dim>& normal) con
 
 template <Kinematics K>
 double FacetSearch<K>::depth(const Point<dim>& x) const {
-  if (sorted_.empty() || !is_in_box(x)) return -std::numeric_limits<double>::infinity();
+  if (!is_in_box(x)) return -std::numeric_limits<double>::infinity();
   const Facet& facet = facets_[nearest(x, [](std::size_t) { return true; })];
   const Point<dim> offset = difference(x, facet.place);
   const double below = -dot(offset, facet.normal), distance = std::sqrt(dot(offset, offset));
@@ -156,7 +156,7 @@ double FacetSearch<K>::depth(const Point<dim>& x) const {
   return holds(x) ? std::max(std::abs(below), distance - facet.extent) : -distance;
 }
 
-// Around an axis the border goes on at its other side.
+// Around an axis the border goes on at its other side. No place is in the box of no border.
 template <Kinematics K>
 bool FacetSearch<K>::is_in_box(const Point<dim>& x) const {
   const double reaches_to = K == Kinematics::axisymmetric ? -most_[0] : least_[0];
