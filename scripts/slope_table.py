@@ -14,28 +14,39 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PLANE_STRAIN = ["material.soil.cone=plane-strain"]
+MOHR_COULOMB = [
+    "body.material=soil_without_cone",
+    'material.soil_without_cone={law="mohr-coulomb", E=20e6, nu=0.3, rho=1800.0, phi=35.0, psi=0.0, c=0.0}',
+]
 FINE = ["grid.cells=[240, 132]"]
 
 # name, overrides
 RUNS = [("mean cone, the scene as it is", [])]
 RUNS += [(f"cone {cone}", [f"material.soil.cone={cone}"]) for cone in ("plane-strain", "compression", "extension")]
-for name, cone in (("mean", []), ("plane-strain", PLANE_STRAIN)):
-    RUNS += [(f"{name}, alpha {alpha}", cone + [f"damping.alpha={alpha}"]) for alpha in (0.0, 0.7)]
-    RUNS += [(f"{name}, mass scaling {scaling}", cone + [f"mass.scaling={scaling}"]) for scaling in (1, 5)]
-    RUNS += [(f"{name}, 9 points a cell", cone + ["body.points_per_cell=9"])]
-    RUNS += [(f"{name}, max_motion {share}", cone + [f"phase.max_motion={share}"]) for share in (0.0, 0.02, 0.3)]
-FINE_RUNS = [("mean, h/2", FINE), ("plane-strain, h/2", PLANE_STRAIN + FINE)]
+RUNS += [("Mohr–Coulomb", MOHR_COULOMB)]
+for name, law in (("mean", []), ("plane-strain", PLANE_STRAIN), ("Mohr–Coulomb", MOHR_COULOMB)):
+    RUNS += [(f"{name}, alpha {alpha}", law + [f"damping.alpha={alpha}"]) for alpha in (0.0, 0.7)]
+    RUNS += [(f"{name}, mass scaling {scaling}", law + [f"mass.scaling={scaling}"]) for scaling in (1, 5)]
+    RUNS += [(f"{name}, 9 points a cell", law + ["body.points_per_cell=9"])]
+    RUNS += [(f"{name}, max_motion {share}", law + [f"phase.max_motion={share}"]) for share in (0.0, 0.02, 0.3)]
+FINE_RUNS = [
+    ("mean, h/2", FINE),
+    ("plane-strain, h/2", PLANE_STRAIN + FINE),
+    ("Mohr–Coulomb, h/2", MOHR_COULOMB + FINE),
+]
 
 
-def eta(cone, phi=35.0):
-    """Friction coefficient of the cone, and with it Davis' angle atan(eta) for psi = 0."""
+def eta(strength, phi=35.0):
+    """Friction coefficient of the cone or of Mohr-Coulomb in plane strain, and with it Davis' angle atan(eta) for
+    psi = 0."""
     s = math.sin(math.radians(phi))
     return {
+        "mohr-coulomb": s,
         "plane-strain": s,
         "mean": 18 * s / (math.sqrt(3) * (9 - s * s)),
         "compression": 6 * s / (math.sqrt(3) * (3 - s)),
         "extension": 6 * s / (math.sqrt(3) * (3 + s)),
-    }[cone]
+    }[strength]
 
 
 def run(case):
@@ -66,9 +77,11 @@ def main():
                 failed += 1
                 print(f"| {name} | failed: {message} | | | | | |", flush=True)
                 continue
-            cone = next((o.split("=")[1] for o in overrides if "cone" in o), "mean")
+            strength = next((o.split("=")[1] for o in overrides if o.startswith("material.soil.cone=")), "mean")
+            if overrides[: len(MOHR_COULOMB)] == MOHR_COULOMB:
+                strength = "mohr-coulomb"
             print(
-                f"| {name} | {summary['slope_angle']:.2f}° | {math.degrees(math.atan(eta(cone))):.1f}° | "
+                f"| {name} | {summary['slope_angle']:.2f}° | {math.degrees(math.atan(eta(strength))):.1f}° | "
                 f"{summary['phases']} | {summary['steps']} | {summary['ns_per_point_step']:.1f} | "
                 f"{summary['mass_error']:.0e} |",
                 flush=True,
