@@ -85,8 +85,8 @@ class CriticallyDampedMotion {
         sum += residual;
         largest = std::max(largest, residual);
       }
-      if (phase_.contact()) {
-        phase_.control().update_multipliers(t_, u(), /*evenly=*/false);
+      if (phase_.info().may_touch) {
+        phase_.control().update_multipliers(t_, u(), /*evenly=*/true);
         stepper_->take_changed_forces(t_);
       }
       periods_.push_back({sum / steps_, distance(u(), start_)});

@@ -1,16 +1,19 @@
 // The multipliers of contact: a body that is nearly in balance takes its contact pressures as
 // multipliers, and goes on to where nothing penetrates.
 //
-// Taken too early, in the first overshoot of the motion, they would be those of another state; each time they change,
-// the body is out of balance again. So they are taken first at a residual of 1e-2, and then at a tenth of the last one,
-// down to the residual that the scene asks for; at least twice, and until the mean penetration of each patch is less
-// than a thousandth of a cell, and until another update would change them by no more than a hundred times that
-// residual: each takes some nine tenths of what is wrong with the forces. At the edge of a contact a patch may open and
-// close from one update to the next; once they come no nearer, there are no more. Under loads that still change they
-// follow once in a while, and after a longer while even if the body is not near balance: in a motion that is never
-// quiet the penalty alone would press else, and give way. There is no end to those, and they are taken evenly, lest
-// pressures from patch to patch grow that the body does not feel.
+// Taken too early, in the first overshoot of the motion, they would be those of another state; and each time they
+// change, the body is out of balance again, by what it will have to go on. So they are taken first at a residual of
+// 1e-2, and then each time that half of what the last update put out of balance is left: body and pressures come to
+// their places together. With friction, which remembers each state on the way, they are taken at a tenth of the last
+// residual, down to the one that the scene asks for. They are taken at least twice, until the mean penetration of each
+// patch is less than a thousandth of a cell, and until another update would change what the body feels of them by no
+// more than thirty times the residual that the scene asks for. At the edge of a contact a patch may open and close from
+// one update to the next; once they come no nearer, there are no more. Under loads that still change they follow once
+// in a while, and after a longer while even if the body is not near balance: in a motion that is never quiet the
+// penalty alone would press else, and give way. There is no end to those, and they are taken evenly, lest pressures
+// from patch to patch grow that the body does not feel.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -24,8 +27,10 @@ class Multipliers : public Watcher {
  public:
   explicit Multipliers(RunState& run)
       : touches_(run.model.phase->info().may_touch),
+        remembers_(run.scene.rubs()),
+        nearer_(remembers_ ? half : 0.7),
         least_(run.scene.stop.residual > 0 ? run.scene.stop.residual : least_by_default),
-        largest_change_(std::clamp(100 * least_, 1e-9, 1e-3)),
+        largest_change_(std::clamp(30 * least_, 1e-9, 1e-3)),
         between_(run.model.dwell / 4),
         goal_(std::max(first, least_)) {
     run.contact_settled = !touches_;
@@ -41,14 +46,17 @@ class Multipliers : public Watcher {
     const bool ends = loads_stay && (fits || updates_ >= most);
     run.contact_settled = ends && state.balanced;
     if (ends || !state.touches) return;
+    const double residual = run.motion->known_residual(run.t);
     run.model.phase->control().update_multipliers(run.t, run.motion->u(), /*evenly=*/!loads_stay);
     run.motion->stepper->take_changed_forces(run.t);
     run.measured.discard();
     last_ = run.t;
     if (!loads_stay) return;
     ++updates_;
-    goal_ = std::max(goal_ / 10, least_);
-    if (state.change < nearer * least_change_) least_change_ = state.change, nearest_ = updates_;
+    since_nearest_ += std::clamp(std::log10(unbalanced_ / residual), 0.0, 2.0);
+    if (state.change < nearer_ * least_change_) least_change_ = state.change, since_nearest_ = 0;
+    unbalanced_ = run.motion->known_residual(run.t);
+    goal_ = remembers_ ? std::max(goal_ / 10, least_) : std::max(half * unbalanced_, least_ / 10);
   }
 
   // Takes an equilibrium back whose contact penetrates, as its multipliers come to no end.
@@ -82,15 +90,15 @@ class Multipliers : public Watcher {
   }
 
   void archive(const StateArchive& state, RunState& run) override {
-    state("updates", updates_, "goal", goal_, "last", last_, "least_change", least_change_, "nearest", nearest_,
-          "settled", run.contact_settled, "look", look_);
+    state("updates", updates_, "goal", goal_, "last", last_, "least_change", least_change_, "since_nearest",
+          since_nearest_, "unbalanced", unbalanced_, "settled", run.contact_settled, "look", look_);
   }
 
  private:
   static constexpr double first = 1e-2, least_by_default = 1e-6, largest_misfit = 1e-3;
-  static constexpr double nearer = 0.5;
-  static constexpr long fewest = 2, most = 60;  // updates
-  static constexpr long stride = 8;             // [steps] between two looks at the residual of a motion
+  static constexpr double half = 0.5;
+  static constexpr long fewest = 2, most = 200;  // updates
+  static constexpr long stride = 8;              // [steps] between two looks at the residual of a motion
 
   // Within a phase a piece keeps the facet that was opposite to it.
   static void note_slides(Summary& summary, RunState& run) {
@@ -115,8 +123,8 @@ class Multipliers : public Watcher {
     return state.misfit <= largest_misfit && state.change <= largest_change_;
   }
   bool comes_no_nearer(const ContactState& state) const {
-    constexpr long patience = 4;  // updates
-    return state.misfit <= largest_misfit && updates_ >= nearest_ + patience;
+    constexpr double patience = 4;
+    return state.misfit <= largest_misfit && since_nearest_ >= patience;
   }
   // Whether the body is as near to balance as the next update wants it.
   bool is_due(RunState& run, bool loads_stay) {
@@ -127,14 +135,18 @@ class Multipliers : public Watcher {
     return run.t >= last_ + patience * between_ || run.motion->known_residual(run.t) <= first;
   }
 
-  bool touches_;
-  double least_;           // the smallest residual to wait for
-  double largest_change_;  // that another update would make, as a share of the multipliers
-  double between_;         // the time between updates under changing loads [s]
-  double goal_;            // the residual to wait for
-  double last_ = 0;        // when the last update was [s]
-  double least_change_ = std::numeric_limits<double>::infinity();  // so far, under loads that stay
-  long updates_ = 0, nearest_ = 0, look_ = 0;                      // nearest_: the update at which it was found
+  bool touches_, remembers_;  // remembers_: with friction
+  double nearer_;             // by what factor a change has to be smaller than the least so far
+  double least_;              // the smallest residual to wait for
+  double largest_change_;     // that another update would make, as a share of the multipliers
+  double between_;            // the time between updates under changing loads [s]
+  double goal_;               // the residual to wait for
+  double last_ = 0;           // when the last update was [s]
+  // Under loads that stay:
+  double least_change_ = std::numeric_limits<double>::infinity();  // that an update has made
+  double since_nearest_ = 0;  // the updates since then, each by the decades of its way to balance, at most two
+  double unbalanced_ = 0;     // the residual after the last one
+  long updates_ = 0, look_ = 0;
 };
 
 }  // namespace

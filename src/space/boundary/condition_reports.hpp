@@ -84,7 +84,7 @@ struct ContactState {
   bool touches = false;  // whether anything touches
   bool balanced = true;  // whether each free rigid body is where its forces balance
   double misfit = 0;     // the largest mean penetration, or gap, of a patch that is touched [cells]
-  double change = 0;     // by which its pressures would change the multipliers, as a share of them
+  double change = 0;  // by which its pressures would change the multipliers, as a share of what unknowns feel of them
 };
 
 /// The state of loads that a displacement drives (load_control.hpp).

@@ -192,8 +192,8 @@ bool Conditions<K>::is_ahead(std::size_t body, const Point<dim>& direction, doub
 }
 
 template <Kinematics K>
-ContactState Conditions<K>::contact_state(double t, const double* u) const {
-  ContactFit fit;
+ContactState Conditions<K>::contact_state(const Parts& phase, double t, const double* u) const {
+  ContactFit fit(phase.dofs.size());
   rigid_contact_->add_fit(t, u, fit);
   body_contact_->add_fit(u, fit);
   return fit.state();

@@ -12,6 +12,16 @@
 
 namespace stillpoint {
 
+ContactState ContactFit::state() const {
+  const auto norm = [](const std::vector<double>& values) {
+    double squares = 0;
+    for (const double value : values) squares += value * value;
+    return std::sqrt(squares);
+  };
+  const double force = norm(forces);
+  return {touches, balanced, misfit, force > 0 ? norm(changes) / force : 0};
+}
+
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::anchor_at_start(double t, const std::vector<Position>& slip) {
   RigidPlacement<N> placement = finder_.placement(t);
@@ -280,17 +290,24 @@ void ContactForce<K, Finder>::add_fit(double t, const double* u, ContactFit& fit
   std::vector<double> area(surface_.patches().size(), 0.0), gap = area, force = area;
   const RigidPlacement<N> placement = this->placement(t, u);
   if (finder_.is_free()) fit.balanced = fit.balanced && balance(t, placement, u).is_near();
+  std::vector<Touch> touches;
   for_closed(placement, u, [&](const Touch& touch) {
     area[touch.patch] += touch.area;
     gap[touch.patch] += touch.area * touch.at.distance;
     force[touch.patch] += touch.area * touch.p;
+    touches.push_back(touch);
   });
-  for (std::size_t k = 0; k < area.size(); ++k) {
-    if (!(area[k] > 0)) continue;
+  const auto feel = [&](const Touch& touch, double p, std::vector<double>& unknowns) {
+    Point<dim> f;
+    for (std::size_t i = 0; i < dim; ++i) f[i] = touch.area * p * touch.at.normal[static_cast<Eigen::Index>(i)];
+    surface_.add(touch.piece, f, unknowns, {});
+  };
+  for (const Touch& touch : touches) {
+    const std::size_t k = touch.patch;
     fit.touches = true;
     fit.misfit = std::max(fit.misfit, std::abs(gap[k]) / area[k] / surface_.patches()[k].cell);
-    fit.changes += std::pow(force[k] - lambda_[k] * area[k], 2);
-    fit.forces += std::pow(force[k], 2);
+    feel(touch, touch.p, fit.forces);
+    feel(touch, force[k] / area[k] - lambda_[k], fit.changes);
   }
 }
 

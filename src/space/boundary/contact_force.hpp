@@ -50,11 +50,15 @@ namespace stillpoint {
 
 /// How well the multipliers of contact fit, in sums over all that touches.
 struct ContactFit {
-  bool touches = false, balanced = true;
-  double misfit = 0;               // the largest mean penetration, or gap, of a patch that is touched [cells]
-  double changes = 0, forces = 0;  // Σ (by which the forces of patches would change the multipliers)², Σ force² [N²]
+  explicit ContactFit(std::size_t unknowns) : forces(unknowns, 0.0), changes(unknowns, 0.0) {}
 
-  ContactState state() const { return {touches, balanced, misfit, forces > 0 ? std::sqrt(changes / forces) : 0}; }
+  bool touches = false, balanced = true;
+  double misfit = 0;  // the largest mean penetration, or gap, of a patch that is touched [cells]
+  // What the unknowns feel of the pressures, and of the changes of the multipliers by them, (n) each [N]. Pressures
+  // that go to and fro from patch to patch within a cell are hardly felt, and come to their places last.
+  std::vector<double> forces, changes;
+
+  ContactState state() const;
 };
 
 /// Finder: TouchFinder or FacetFinder.
@@ -109,6 +113,7 @@ class ContactForce {
   /// Takes the pressures at (t, u) as multipliers; evenly: by changes that are smoothed (patch_neighbours.hpp), of
   /// which there may be any number.
   void update_multipliers(double t, const double* u, bool evenly);
+  /// fit: for the unknowns of the phase.
   void add_fit(double t, const double* u, ContactFit& fit) const;
   /// The mean gaps of the patches where they bear a pressure, (patches) [m]; NaN of a patch that bears none.
   std::vector<double> mean_gaps(double t, const double* u) const;

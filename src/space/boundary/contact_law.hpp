@@ -39,13 +39,16 @@ void add_shear(const ShearLimit& shear, const typename TouchFinder<K>::Position&
 /// −∂f/∂x of a piece, times A. With the direction d of τ where it slips at its limit,
 ///
 ///   ∂τ/∂x = −κ (I − n nᵀ) where it sticks,   −μ κ d nᵀ − κ |τ|/|τ_trial| (I − n nᵀ − d dᵀ) where it slips.
+///
+/// A round body that presses softens by −p ∇n. Where a motion begins, with pieces that a jump has left deep in it, p is
+/// far from that of any balance, and so is this term: frequencies are those without it.
 template <Kinematics K>
 auto stiffness_of(Tangent kind, const ShearLimit& shear, const ContactTouch<K>& touch) {
   constexpr int N = TouchFinder<K>::N;
   using Matrix = Eigen::Matrix<double, N, N>;
   const auto& n = touch.at.normal;
   Matrix S = touch.kappa * n * n.transpose();
-  if (kind != Tangent::stable) S -= touch.p * touch.at.hessian;
+  if (kind == Tangent::consistent) S -= touch.p * touch.at.hessian;
   if (shear.acts()) {
     const Matrix along = Matrix::Identity() - n * n.transpose();
     if (kind != Tangent::consistent || !touch.slips) {

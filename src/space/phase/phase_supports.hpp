@@ -36,7 +36,7 @@ class PhaseSupportsOf final : public PhaseSupports {
   }
   ContactState contact_state(double t, ConstVec u) const override {
     if (!all_.conditions.may_touch()) return {};
-    return all_.conditions.contact_state(t, spread(t, u)->u.data());
+    return all_.conditions.contact_state(all_.inertia.parts(), t, spread(t, u)->u.data());
   }
   std::vector<Intrusion> intrusions(double t, ConstVec u) const override {
     if (!all_.conditions.may_touch()) return {};
