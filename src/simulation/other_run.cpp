@@ -14,6 +14,7 @@
 #include "base/text.hpp"
 #include "plan/catalogue.hpp"
 #include "scene/throw_scene_error.hpp"
+#include "simulation/advice/placed_points.hpp"
 #include "simulation/parts.hpp"
 #include "space/phase/lagrangian_phase.hpp"
 
@@ -108,6 +109,23 @@ std::shared_ptr<CarriedBody> points_of_other_run(const Problem& problem) {
   } catch (const PointLost& error) {
     throw_scene_error(initial_from, error.what());
   }
+}
+
+// Where cells have fewer points than one, the points of a cell take more than it has. A body at rest has no more volume
+// than the cells that it reaches.
+void refuse_sparse_points(const Problem& problem, const LagrangianPhase& phase) {
+  constexpr double most = 1.3;
+  if (problem.phase.quadrature == Quadrature::domains) return;
+  const FilledCells filled = filled_cells(problem, phase);
+  double mean = 0;
+  for (const auto& [cell, share] : filled) mean += share / static_cast<double>(filled.size());
+  if (mean <= most) return;
+  throw_scene_error(
+      initial_from,
+      fmt::format("the points of the other run fill {:.2g} times the cells of this grid in which they are, so "
+                  "that others inside the body have none; expected larger cells, or more points per cell in "
+                  "the other run",
+                  mean));
 }
 
 }  // namespace stillpoint

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "space/phase/lagrangian_phase.hpp"
 #include "space/points/carried_points.hpp"
 
 namespace stillpoint {
@@ -12,5 +13,7 @@ namespace stillpoint {
 /// The points that the checkpoint of problem.initial_from left, for the bodies of the problem. Throws SceneError if it
 /// cannot be read, is of another kind of body, or has none of the problem's bodies.
 std::shared_ptr<CarriedBody> points_of_other_run(const Problem& problem);
+/// Throws SceneError if these points are too few for the grid of the problem. phase: the first one, at its begin.
+void refuse_sparse_points(const Problem& problem, const LagrangianPhase& phase);
 
 }  // namespace stillpoint

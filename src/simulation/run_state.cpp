@@ -71,8 +71,10 @@ Model RunState::set_up() {
     if (options.ranks) refuse_what_ranks_lack(scene);
     if (stage.number == 0 && !scene.stages.empty()) check_ground_of_later_stages(scene);
     if (!scene.initial_from.empty() && !stage.carried) stage.carried = points_of_other_run(scene);
-    return make_model(scene, require_memory(make_plan(scene)), stage.carried ? nullptr : options.store,
-                      {.carried = stage.carried.get(), .t = stage.t, .ranks = options.ranks.get()});
+    Model made = make_model(scene, require_memory(make_plan(scene)), stage.carried ? nullptr : options.store,
+                            {.carried = stage.carried.get(), .t = stage.t, .ranks = options.ranks.get()});
+    if (!scene.initial_from.empty() && stage.number == 0) refuse_sparse_points(scene, *made.phase);
+    return made;
   } catch (const Stopped&) {
     throw SetUpStopped(end_request.status(), end_request.reason() + " in the set-up; the run has not begun",
                        wall.seconds());

@@ -349,6 +349,21 @@ TEST_CASE("points that another run has drawn apart, so that cells have more of t
   CHECK_FALSE(test::says(next_of({"constants.P=0.1"}), "fill cells inside the body"));
 }
 
+TEST_CASE("points of another run that are fewer than the cells which they would have to fill are refused") {
+  const std::string block =
+      "dim = 2\n[grid]\nmin = [0, 0]\nmax = [2, 2]\ncells = [8, 8]\n[[body]]\nname = 'block'\nmax = [1, 1]\n"
+      "material = 'm'\n[material.m]\nlaw = 'hencky'\nE = 1e5\nnu = 0\nrho = 1000\n[[support]]\nface = 'bottom'\n"
+      "[damping]\nstrategy = 'auto'\n[checkpoint]\nevery_steps = 100000\n";
+  const test::TemporaryFolder folder;
+  REQUIRE(run(load_scene("scene.toml", block, {}), {.out = folder.path()}).status == RunStatus::equilibrium);
+  const std::string from = "initial.from=" + (folder.path() / "checkpoint.h5").string();
+  // 4 points a cell: one a cell of half the size, and less than one of a third.
+  CHECK(scenes::run_text(block, {from, "grid.cells=[16, 16]"}).status == RunStatus::equilibrium);
+  CHECK_THROWS_WITH(
+      scenes::run_text(block, {from, "grid.cells=[24, 24]"}),
+      Catch::Contains("initial.from") && Catch::Contains("fill 2.2 times the cells of this grid in which they are"));
+}
+
 TEST_CASE("a stage that changes nothing, and a run that begins at rest with another's points, are in equilibrium") {
   const std::vector<std::string> column = settling_column(in_place);
   const Summary stages = run(scenes::load(

@@ -1,6 +1,7 @@
 #include "simulation/advice/placed_points.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "scene/grid_lines.hpp"
@@ -30,6 +31,18 @@ PlacedPoints place_points(const Problem& problem, const LagrangianPhase& phase, 
     placed.share[p] = share_of_cell(problem, static_cast<std::size_t>(data.bodies[p]),
                                     ConstVec(placed.x).subspan(dim * p, dim), placed.share[p]);
   return placed;
+}
+
+FilledCells filled_cells(const Problem& problem, const LagrangianPhase& phase) {
+  const PlacedPoints placed = place_points(problem, phase, 0, std::vector<double>(phase.size(), 0.0));
+  FilledCells filled;
+  for (std::size_t p = 0; p < placed.bodies.size(); ++p) {
+    FilledCells::key_type cell{};
+    for (std::size_t d = 0; d < placed.dim; ++d)
+      cell[d] = std::lround(std::floor(cells_before(problem.grid, d, placed.x[placed.dim * p + d])));
+    filled[cell] += placed.share[p];
+  }
+  return filled;
 }
 
 }  // namespace stillpoint

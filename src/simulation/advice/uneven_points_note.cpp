@@ -3,12 +3,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <string>
 
 #include <fmt/format.h>
 
-#include "scene/grid_lines.hpp"
 #include "scene/resolve.hpp"
 #include "simulation/advice/notes.hpp"
 #include "simulation/advice/placed_points.hpp"
@@ -16,23 +14,8 @@
 namespace stillpoint {
 namespace {
 
-using Cell = std::array<long, 3>;
-
-/// How full the cells are that have points.
-std::map<Cell, double> filled_cells(const Problem& problem, const LagrangianPhase& phase) {
-  const PlacedPoints placed = place_points(problem, phase, 0, std::vector<double>(phase.size(), 0.0));
-  std::map<Cell, double> filled;
-  for (std::size_t p = 0; p < placed.bodies.size(); ++p) {
-    Cell cell{};
-    for (std::size_t d = 0; d < placed.dim; ++d)
-      cell[d] = std::lround(std::floor(cells_before(problem.grid, d, placed.x[placed.dim * p + d])));
-    filled[cell] += placed.share[p];
-  }
-  return filled;
-}
-
 /// Whether all cells around one have points as well, so that it is inside the body.
-bool is_inside(const std::map<Cell, double>& filled, const Cell& cell, int dim) {
+bool is_inside(const FilledCells& filled, const FilledCells::key_type& cell, int dim) {
   const std::array<int, 3> reach = {1, dim > 1 ? 1 : 0, dim > 2 ? 1 : 0};
   for (long i = -reach[0]; i <= reach[0]; ++i)
     for (long j = -reach[1]; j <= reach[1]; ++j)
@@ -47,7 +30,7 @@ std::optional<std::string> uneven_points_note(const Problem& problem, const Lagr
   if (problem.initial_from.empty() || problem.phase.quadrature == Quadrature::domains) return std::nullopt;
   const bool is_linear = problem.grid.basis == BasisKind::linear;
   const double unfelt = is_linear ? 0.1 : 0.3;  // wider functions feel less of it
-  const std::map<Cell, double> filled = filled_cells(problem, phase);
+  const FilledCells filled = filled_cells(problem, phase);
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const auto& [cell, share] : filled) {
     if (!is_inside(filled, cell, problem.dim)) continue;
