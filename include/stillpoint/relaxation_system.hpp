@@ -7,6 +7,7 @@
 #include <stillpoint/state_archive.hpp>
 #include <stillpoint/vector.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -52,6 +53,11 @@ class RelaxationSystem {
   /// Evaluates no more than F and R at (t, u), for last(), and does not count it. False as above.
   bool evaluate(double t, ConstVec u);
   const Evaluation& last() const { return last_; }
+  /// Lets the last evaluation take over forces that have changed at its state: change(R, trial), which changes R, (n),
+  /// and the reactions.
+  void change_last(const std::function<void(Vec R, TrialState& trial)>& change) {
+    change(last_.R.span(), *last_.trial);
+  }
   /// Q of the last evaluation as out_of_balance() gives it, at no cost, after contacts have opened or closed.
   void last_out_of_balance(double t, Vec Q) const;
   /// The same without the inertia of moving supports: what is out of balance at rest.

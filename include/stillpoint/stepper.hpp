@@ -52,8 +52,8 @@ class Stepper {
   /// Called at the present t, at the start and after each step. A march commits it: laws remember, contacts open and
   /// close, and the march goes on from what they change in y. Iterates are not committed.
   virtual void accept(double t) = 0;
-  /// Called at the present t if the system's forces at the present state have changed: evaluates them anew, and goes
-  /// on.
+  /// Called at the present t if the forces at the present state have changed, as the system's last evaluation, which is
+  /// there, has taken over: goes on from it.
   virtual void take_changed_forces(double t) = 0;
   /// Called at the present t, at the end of a phase: commits it, if accept() did not.
   virtual void finish(double t) = 0;

@@ -86,7 +86,9 @@ class CriticallyDampedMotion {
         largest = std::max(largest, residual);
       }
       if (phase_.info().may_touch) {
-        phase_.control().update_multipliers(t_, u(), /*evenly=*/true);
+        system_.change_last([this](Vec R, TrialState& trial) {
+          phase_.control().update_multipliers(t_, u(), /*evenly=*/true, R, trial);
+        });
         stepper_->take_changed_forces(t_);
       }
       periods_.push_back({sum / steps_, distance(u(), start_)});

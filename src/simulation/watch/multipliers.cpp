@@ -47,7 +47,10 @@ class Multipliers : public Watcher {
     run.contact_settled = ends && state.balanced;
     if (ends || !state.touches) return;
     const double residual = run.motion->known_residual(run.t);
-    run.model.phase->control().update_multipliers(run.t, run.motion->u(), /*evenly=*/!loads_stay);
+    run.motion->evaluate(run.t);
+    run.motion->system.change_last([&](Vec R, TrialState& trial) {
+      run.model.phase->control().update_multipliers(run.t, run.motion->u(), /*evenly=*/!loads_stay, R, trial);
+    });
     run.motion->stepper->take_changed_forces(run.t);
     run.measured.discard();
     last_ = run.t;

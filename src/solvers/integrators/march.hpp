@@ -20,11 +20,11 @@ class March : public TrialStepper {
     }
   }
   void finish(double /*t*/) final {}
-  void take_changed_forces(double t) final { begun(evaluate_anew(t, state())); }
+  void take_changed_forces(double t) final { begun(restart(t, state())); }
 
  protected:
   using TrialStepper::TrialStepper;
-  /// Begins again at (t, y) when only v has changed; the last force evaluation was at this u.
+  /// Begins again at (t, y) when v has changed, or forces have; the last force evaluation was at this u.
   virtual bool restart(double t, const Vector& y) { return begin(t, y); }
   /// Begins again at (t, y) when u has changed as well, so that there is no force evaluation at it yet.
   virtual bool evaluate_anew(double t, const Vector& y) { return begin(t, y); }

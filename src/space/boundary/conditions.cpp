@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -115,6 +116,12 @@ void Conditions<K>::add_force(double t, const double* u, Vec R, Vec reactions) c
   const std::size_t with_springs = reactions.size() - rigid_contact_->forces(), prescribed = with_springs - springs();
   weak_supports_.springs().add_force(t, u, R, reactions.first(prescribed + weak_supports_.springs().size()));
   load_control_.springs().add_force(t, u, R, reactions.first(with_springs));
+  add_contact(t, u, R, reactions);
+}
+
+template <Kinematics K>
+void Conditions<K>::add_contact(double t, const double* u, Vec R, Vec reactions) const {
+  const std::size_t with_springs = reactions.size() - rigid_contact_->forces(), prescribed = with_springs - springs();
   rigid_contact_->add_force(t, u, R, reactions.first(prescribed), reactions.subspan(with_springs));
   body_contact_->add_force(u, R, reactions.first(prescribed));
 }
@@ -161,9 +168,18 @@ double Conditions<K>::growth_of_springs() const {
 }
 
 template <Kinematics K>
-void Conditions<K>::update_multipliers(double t, const double* u, bool evenly) {
+void Conditions<K>::update_multipliers(double t, const double* u, bool evenly, Vec R, Vec reactions) {
+  const auto forces = [&] {
+    std::pair of(std::vector<double>(R.size(), 0.0), std::vector<double>(reactions.size(), 0.0));
+    add_contact(t, u, of.first, of.second);
+    return of;
+  };
+  const auto before = forces();
   rigid_contact_->update_multipliers(t, u, evenly);
   body_contact_->update_multipliers(u, evenly);
+  const auto now = forces();
+  for (std::size_t k = 0; k < R.size(); ++k) R[k] += now.first[k] - before.first[k];
+  for (std::size_t k = 0; k < reactions.size(); ++k) reactions[k] += now.second[k] - before.second[k];
 }
 
 template <Kinematics K>

@@ -88,7 +88,8 @@ class Conditions {
   /// Whether loads stay what they are and springs where they are, so that nothing but motions in the body can put out
   /// of balance what rests at t.
   bool let_parts_rest(double t) const;
-  void update_multipliers(double t, const double* u, bool evenly);
+  /// As PhaseControl's; reactions: as in add_force().
+  void update_multipliers(double t, const double* u, bool evenly, Vec R, Vec reactions);
   bool ask_for_next_phase(ConstVec u) const;
   void end_phase(double t, const double* u);
   /// As RigidContact::faces().
@@ -128,6 +129,8 @@ class Conditions {
   LoadState load_state(double t, const double* u) const { return load_control_.state(t, u); }
 
  private:
+  /// The part of add_force() that is of contact.
+  void add_contact(double t, const double* u, Vec R, Vec reactions) const;
   std::size_t springs() const { return weak_supports_.springs().size() + load_control_.springs().size(); }
 
   const Problem& problem_;

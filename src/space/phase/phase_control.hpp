@@ -35,10 +35,10 @@ class PhaseControlOf final : public PhaseControl {
     all_.begin_phase(t);
     return all_.remap.begin_motion(t);
   }
-  void update_multipliers(double t, ConstVec u, bool evenly) override {
+  void update_multipliers(double t, ConstVec u, bool evenly, Vec R, TrialState& of) override {
     const auto work = all_.force.borrow();
     all_.frame.unknowns.spread(t, u, work->u);
-    all_.conditions.update_multipliers(t, work->u.data(), evenly);
+    all_.conditions.update_multipliers(t, work->u.data(), evenly, R, of.reactions);
   }
   void change_materials(const std::map<std::string, MaterialSpec>& materials) override {
     stillpoint::change_materials(all_.frame.body, materials, all_.problem, all_.frame.moves_on());
