@@ -25,6 +25,7 @@ const std::string pad = R"toml(
 dim = 2
 [constants]
 push = 0.3
+T = 1
 R = 0.3
 at = 2.125
 [grid]
@@ -40,7 +41,7 @@ placement = "gauss"
 face = "bottom"
 )toml" + pad_rubber;
 const std::string disc =
-    "[[rigid]]\nname = \"pin\"\ndisc = [\"at\", \"2+R\"]\nradius = \"R\"\nmotion = [\"0\", \"-push*min(t,1)\"]\n";
+    "[[rigid]]\nname = \"pin\"\ndisc = [\"at\", \"2+R\"]\nradius = \"R\"\nmotion = [\"0\", \"-push*min(t/T,1)\"]\n";
 
 /// The number of cells after these words of a note; NaN: no note has them.
 double depth_told(const Summary& s, const std::string& words) {
@@ -63,6 +64,17 @@ TEST_CASE(
     CHECK(past.status != RunStatus::equilibrium);
     CHECK_THAT(past.reason, Contains("'pin' has gone past the border of 'pad'"));
   }
+}
+
+TEST_CASE("a disc that is pressed far into rubber ends with one force, however fast it comes") {
+  std::vector<double> forces;
+  for (const char* T : {"constants.T=1", "constants.T=10"}) {
+    const Summary s = run_text(pad + disc + to_rest, {"constants.push=1", T});
+    CHECK(s.status == RunStatus::equilibrium);
+    forces.push_back(s.contacts.at("pin.force_y"));
+  }
+  CHECK(forces[0] < -1e5);
+  CHECK(forces[0] == Approx(forces[1]).epsilon(1e-5));  // 3e-7
 }
 
 TEST_CASE("a pin that goes in between two places that feel contact is found by the material that lies in it") {
