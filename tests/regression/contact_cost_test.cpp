@@ -56,7 +56,7 @@ Summary press(const Pressed& by, const std::vector<std::string>& settings = {}) 
 }  // namespace
 
 TEST_CASE("a body is pressed by a smooth rigid one in no more than 2.7 times the evaluations of the same traction") {
-  // 1.3, 1.9, 2.7 and 2.3; with an update at each tenth of the residual 1.1, 1.6, 5.4 and 4.5. Where the corner of a
+  // 1.2, 1.7, 2.3 and 2.2; with an update at each tenth of the residual 1.1, 1.6, 5.4 and 4.5. Where the corner of a
   // footing presses, patches open and close on the way.
   for (const Pressed& by : pressed) {
     CAPTURE(by.name);

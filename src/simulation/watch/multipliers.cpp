@@ -28,6 +28,7 @@ class Multipliers : public Watcher {
   explicit Multipliers(RunState& run)
       : touches_(run.model.phase->info().may_touch),
         remembers_(run.scene.rubs()),
+        nearer_(remembers_ ? half : 0.7),
         least_(run.scene.stop.residual > 0 ? run.scene.stop.residual : least_by_default),
         largest_change_(std::clamp(30 * least_, 1e-9, 1e-3)),
         between_(run.model.dwell / 4),
@@ -56,7 +57,7 @@ class Multipliers : public Watcher {
     if (!loads_stay) return;
     ++updates_;
     since_nearest_ += std::clamp(std::log10(unbalanced_ / residual), 0.0, 2.0);
-    if (state.change < nearer * least_change_) least_change_ = state.change, since_nearest_ = 0;
+    if (state.change < nearer_ * least_change_) least_change_ = state.change, since_nearest_ = 0;
     unbalanced_ = run.motion->known_residual(run.t);
     goal_ = remembers_ ? std::max(goal_ / 10, least_) : std::max(half * unbalanced_, least_ / 10);
   }
@@ -98,7 +99,7 @@ class Multipliers : public Watcher {
 
  private:
   static constexpr double first = 1e-2, least_by_default = 1e-6, largest_misfit = 1e-3;
-  static constexpr double half = 0.5, nearer = 0.7;
+  static constexpr double half = 0.5;
   static constexpr long fewest = 2, most = 200;  // updates
   static constexpr long stride = 8;              // [steps] between two looks at the residual of a motion
 
@@ -138,6 +139,8 @@ class Multipliers : public Watcher {
   }
 
   bool touches_, remembers_;  // remembers_: with friction
+  double nearer_;             // the share of the least change so far that a nearer one stays below: with friction each
+                              // update moves what sticks at the ends of the contact, so that few have to do
   double least_;              // the smallest residual to wait for
   double largest_change_;     // that another update would make, as a share of the multipliers
   double between_;            // the time between updates under changing loads [s]
