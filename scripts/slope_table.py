@@ -78,7 +78,7 @@ def main():
                 print(f"| {name} | failed: {message} | | | | | |", flush=True)
                 continue
             strength = next((o.split("=")[1] for o in overrides if o.startswith("material.soil.cone=")), "mean")
-            if overrides[: len(MOHR_COULOMB)] == MOHR_COULOMB:
+            if MOHR_COULOMB[0] in overrides:
                 strength = "mohr-coulomb"
             print(
                 f"| {name} | {summary['slope_angle']:.2f}° | {math.degrees(math.atan(eta(strength))):.1f}° | "

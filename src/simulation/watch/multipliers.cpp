@@ -46,8 +46,7 @@ class Multipliers : public Watcher {
     const bool ends = loads_stay && (fits || updates_ >= most);
     run.contact_settled = ends && state.balanced;
     if (ends || !state.touches) return;
-    const double residual = run.motion->known_residual(run.t);
-    run.motion->evaluate(run.t);
+    const double residual = run.motion->known_residual(run.t);  // the last evaluation is at this state then
     run.motion->system.change_last([&](Vec R, TrialState& trial) {
       run.model.phase->control().update_multipliers(run.t, run.motion->u(), /*evenly=*/!loads_stay, R, trial);
     });
@@ -70,13 +69,13 @@ class Multipliers : public Watcher {
     if (state.misfit <= much) return;
     verdict = {RunStatus::step_limit,
                fmt::format("no equilibrium: after {} updates of its multipliers contact still gives way by {:.2g} "
-                           "cells on average where most, and its pressures go to and fro by {:.2g} % from patch to "
-                           "patch; expected smaller cells; it ended with {}",
+                           "cells on average where most, and another would change the forces on the body by {:.2g} %; "
+                           "expected smaller cells; it ended with {}",
                            updates_, state.misfit, 100 * state.change, verdict.reason)};
   }
 
   void fill_state(Summary& summary, RunState& run) override {
-    constexpr double negligible = 1e-2;  // of the pressures
+    constexpr double negligible = 1e-2;  // of the forces
     if (!touches_) return;
     note_stretch(summary, run);
     if (!run.scene.stop.wants_equilibrium()) return;
@@ -87,8 +86,8 @@ class Multipliers : public Watcher {
     if (state.misfit <= largest_misfit && state.change <= negligible) return;
     add_note(
         summary,
-        fmt::format("contact gives way by {:.2g} cells on average where most, and its pressures may be off by {:.2g} "
-                    "% from patch to patch: its multipliers are those of an earlier state",
+        fmt::format("contact gives way by {:.2g} cells on average where most, and its forces on the body may be off by "
+                    "{:.2g} %: its multipliers are those of an earlier state",
                     state.misfit, 100 * state.change));
   }
 
@@ -139,10 +138,10 @@ class Multipliers : public Watcher {
   }
 
   bool touches_, remembers_;  // remembers_: with friction
-  double nearer_;             // the share of the least change so far that a nearer one stays below: with friction each
-                              // update moves what sticks at the ends of the contact, so that few have to do
+  double nearer_;             // the share of the least change so far that a nearer one stays below: with friction less,
+                              // as each update waits for longer
   double least_;              // the smallest residual to wait for
-  double largest_change_;     // that another update would make, as a share of the multipliers
+  double largest_change_;     // that another update would make, as a share of the forces of contact
   double between_;            // the time between updates under changing loads [s]
   double goal_;               // the residual to wait for
   double last_ = 0;           // when the last update was [s]
