@@ -8,6 +8,8 @@ target_compile_options(stillpoint_flags INTERFACE
   -fno-math-errno -fno-trapping-math
   $<$<BOOL:${STILLPOINT_NATIVE}>:-march=native>
   $<$<CONFIG:Release>:-O3>
+  # GCC tidies its memory up from 128 MB on, again and again: a tenth of a large file's time, for a gigabyte saved.
+  "$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-heapsize=1500000;SHELL:--param ggc-min-expand=100>"
   # What gcc 12 guesses from the code that -O3 has inlined is wrong, inside its own <string> and AVX-512 headers. So
   # is what it guesses of an std::optional in the asan build.
   "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>"
