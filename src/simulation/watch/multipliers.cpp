@@ -4,14 +4,13 @@
 // Taken too early, in the first overshoot of the motion, they would be those of another state; and each time they
 // change, the body is out of balance again, by what it will have to go on. So they are taken first at a residual of
 // 1e-2, and then each time that half of what the last update put out of balance is left: body and pressures come to
-// their places together. With friction, which remembers each state on the way, they are taken at a tenth of the last
-// residual, down to the one that the scene asks for. They are taken at least twice, until the mean penetration of each
-// patch is less than a thousandth of a cell, and until another update would change what the body feels of them by no
-// more than thirty times the residual that the scene asks for. At the edge of a contact a patch may open and close from
-// one update to the next; once they come no nearer, there are no more. Under loads that still change they follow once
-// in a while, and after a longer while even if the body is not near balance: in a motion that is never quiet the
-// penalty alone would press else, and give way. There is no end to those, and they are taken evenly, lest pressures
-// from patch to patch grow that the body does not feel.
+// their places together. They are taken at least twice, until what the grid's functions can tell of a penetration is
+// less than a thousandth of a cell, and until another update would change what the body feels of them by no more than
+// thirty times the residual that the scene asks for. At the edge of a contact a piece may open and close from one
+// update to the next; once they come no nearer, there are no more. Under loads that still change they follow once in a
+// while, and after a longer while even if the body is not near balance: in a motion that is never quiet the penalty
+// alone would press else, and give way. There is no end to those, and they are taken evenly: what swings at the moment
+// of an update is not to stay as a pressure.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,8 +26,6 @@ class Multipliers : public Watcher {
  public:
   explicit Multipliers(RunState& run)
       : touches_(run.model.phase->info().may_touch),
-        remembers_(run.scene.rubs()),
-        nearer_(remembers_ ? half : 0.7),
         least_(run.scene.stop.residual > 0 ? run.scene.stop.residual : least_by_default),
         largest_change_(std::clamp(30 * least_, 1e-9, 1e-3)),
         between_(run.model.dwell / 4),
@@ -56,9 +53,9 @@ class Multipliers : public Watcher {
     if (!loads_stay) return;
     ++updates_;
     since_nearest_ += std::clamp(std::log10(unbalanced_ / residual), 0.0, 2.0);
-    if (state.change < nearer_ * least_change_) least_change_ = state.change, since_nearest_ = 0;
+    if (state.change < nearer * least_change_) least_change_ = state.change, since_nearest_ = 0;
     unbalanced_ = run.motion->known_residual(run.t);
-    goal_ = remembers_ ? std::max(goal_ / 10, least_) : std::max(half * unbalanced_, least_ / 10);
+    goal_ = std::max(half * unbalanced_, least_ / 10);
   }
 
   // Takes an equilibrium back whose contact penetrates, as its multipliers come to no end.
@@ -99,6 +96,7 @@ class Multipliers : public Watcher {
  private:
   static constexpr double first = 1e-2, least_by_default = 1e-6, largest_misfit = 1e-3;
   static constexpr double half = 0.5;
+  static constexpr double nearer = 0.7;          // of the least change so far, for one that counts as nearer
   static constexpr long fewest = 2, most = 200;  // updates
   static constexpr long stride = 8;              // [steps] between two looks at the residual of a motion
 
@@ -137,14 +135,12 @@ class Multipliers : public Watcher {
     return run.t >= last_ + patience * between_ || run.motion->known_residual(run.t) <= first;
   }
 
-  bool touches_, remembers_;  // remembers_: with friction
-  double nearer_;             // the share of the least change so far that a nearer one stays below: with friction less,
-                              // as each update waits for longer
-  double least_;              // the smallest residual to wait for
-  double largest_change_;     // that another update would make, as a share of the forces of contact
-  double between_;            // the time between updates under changing loads [s]
-  double goal_;               // the residual to wait for
-  double last_ = 0;           // when the last update was [s]
+  bool touches_;
+  double least_;           // the smallest residual to wait for
+  double largest_change_;  // that another update would make, as a share of the forces of contact
+  double between_;         // the time between updates under changing loads [s]
+  double goal_;            // the residual to wait for
+  double last_ = 0;        // when the last update was [s]
   // Under loads that stay:
   double least_change_ = std::numeric_limits<double>::infinity();  // that an update has made
   double since_nearest_ = 0;  // the updates since then, each by the decades of its way to balance, at most two

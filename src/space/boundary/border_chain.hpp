@@ -28,29 +28,6 @@ std::vector<Value> of_pieces_cut_anew(const std::vector<Value>& before, const st
   return after;
 }
 
-/// What the patches had that a piece comes from, on average.
-template <class Value>
-Value of_patch_before(const std::vector<Value>& before, const PieceOrigin& origin) {
-  return (before[origin.patch[0]] + before[origin.patch[1]]) / 2;
-}
-/// What patches have that were cut anew: the mean of what their pieces bring from the patches before. size_of(piece).
-template <class Value, class Patches, class SizeOf>
-std::vector<Value> of_patches_cut_anew(const std::vector<Value>& before, const std::vector<PieceOrigin>& origins,
-                                       const Patches& patches, const SizeOf& size_of, const Value& zero) {
-  std::vector<Value> means;
-  for (const auto& patch : patches) {
-    double size = 0;
-    Value sum = zero;
-    for (std::size_t s = patch.begin; s < patch.end; ++s) {
-      sum += size_of(s) * of_patch_before(before, origins[s]);
-      size += size_of(s);
-    }
-    if (size > 0) sum /= size;
-    means.push_back(sum);
-  }
-  return means;
-}
-
 template <Kinematics K>
 class BorderChain {
  public:

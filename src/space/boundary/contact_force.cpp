@@ -9,6 +9,7 @@
 
 #include "space/boundary/facet_finder.hpp"
 #include "space/boundary/small_stiffness.hpp"
+#include "space/boundary/trace_fit.hpp"
 
 namespace stillpoint {
 
@@ -71,7 +72,7 @@ void ContactForce<K, Finder>::take_over(const StateArchive& state) {
 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::resize() {
-  lambda_.resize(surface_.patches().size());
+  lambda_.resize(surface_.size());
   if (!remembers()) return;
   lambda_t_.resize(lambda_.size());
   anchor_.resize(surface_.size());
@@ -80,10 +81,10 @@ void ContactForce<K, Finder>::resize() {
 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::archive_part(const StateArchive& state, const typename ContactSurface<K>::Part& part) {
-  const std::size_t patches = part.end_patch - part.first_patch, pieces = part.end_piece - part.first_piece;
-  state("lambda", Vec(lambda_).subspan(part.first_patch, patches));
+  const std::size_t pieces = part.end_piece - part.first_piece;
+  state("lambda", Vec(lambda_).subspan(part.first_piece, pieces));
   if (!remembers()) return;
-  std::span<Position> lambda_t = std::span(lambda_t_).subspan(part.first_patch, patches),
+  std::span<Position> lambda_t = std::span(lambda_t_).subspan(part.first_piece, pieces),
                       anchor = std::span(anchor_).subspan(part.first_piece, pieces);
   state.each(
       "lambda_t", lambda_t, [](Position & of) -> auto& { return of; });
@@ -158,7 +159,7 @@ double ContactForce<K, Finder>::way_to_touch(const RigidPlacement<N>& placement,
   const auto everywhere = [](std::size_t) { return std::numeric_limits<double>::infinity(); };
   finder_.for_near(placement, u, everywhere, [&](const typename TouchFinder<K>::Near& near) {
     const double kappa = patches[near.patch].stiffness;
-    least = std::min(least, near.at.distance - (kappa > 0 ? lambda_[near.patch] / kappa : 0));
+    least = std::min(least, near.at.distance - (kappa > 0 ? lambda_[near.piece] / kappa : 0));
   });
   return std::max(0.0, least);
 }
@@ -211,7 +212,7 @@ void ContactForce<K, Finder>::add_entries(Tangent kind, double t, const double* 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::drag(const RigidPlacement<N>& placement, const Touch& touch) {
   const Position tau = placement.Q.transpose() * touch.tau;
-  anchor_[touch.piece] = touch.X + (tau - lambda_t_[touch.patch]) / touch.kappa;
+  anchor_[touch.piece] = touch.X + (tau - lambda_t_[touch.piece]) / touch.kappa;
 }
 
 // A piece that is open sticks where it closes, which is near to where it is now.
@@ -229,85 +230,129 @@ void ContactForce<K, Finder>::commit(double t, const double* u) {
     if (!closed_[s]) anchor_[s] = placement.to_body(TouchFinder<K>::position_of(surface_.position(s, u)));
 }
 
+template <Kinematics K, class Finder>
+auto ContactForce<K, Finder>::touches(const RigidPlacement<N>& placement, const double* u) const -> Touches {
+  Touches touches;
+  for_closed(placement, u, [&](const Touch& touch) {
+    touches.all.push_back(touch);
+    touches.pieces.push_back(touch.piece);
+  });
+  return touches;
+}
+
+template <Kinematics K, class Finder>
+auto ContactForce<K, Finder>::means_of_patches(const std::vector<Touch>& touches, const Eigen::MatrixXd& values) const
+    -> PatchMeans {
+  const std::size_t patches = surface_.patches().size();
+  PatchMeans means{std::vector<char>(patches, 0), std::vector<double>(patches, 0.0),
+                   Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(patches), values.cols())};
+  Eigen::Index row = 0;
+  for (const Touch& touch : touches) {
+    means.area[touch.patch] += touch.area;
+    means.values.row(static_cast<Eigen::Index>(touch.patch)) += touch.area * values.row(row++);
+  }
+  for (std::size_t k = 0; k < patches; ++k) {
+    means.bears[k] = means.area[k] > 0;
+    if (means.bears[k]) means.values.row(static_cast<Eigen::Index>(k)) /= means.area[k];
+  }
+  return means;
+}
+
+template <Kinematics K, class Finder>
+Eigen::RowVectorXd ContactForce<K, Finder>::multiplier(std::size_t piece) const {
+  Eigen::RowVectorXd value(remembers() ? 1 + N : 1);
+  value[0] = lambda_[piece];
+  if (remembers()) value.template tail<N>() = lambda_t_[piece];
+  return value;
+}
+
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::set_multiplier(std::size_t piece, const Eigen::RowVectorXd& value) {
+  lambda_[piece] = std::max(0.0, value[0]);
+  if (remembers()) lambda_t_[piece] = value.template tail<N>();
+}
+
+// A piece that is open beside others of its patch bears as they do where it closes.
+template <Kinematics K, class Finder>
+void ContactForce<K, Finder>::take(const std::vector<Touch>& touches, const Eigen::MatrixXd& borne) {
+  const PatchMeans means = means_of_patches(touches, borne);
+  const auto patches = surface_.patches();
+  for (std::size_t k = 0; k < patches.size(); ++k)
+    for (std::size_t s = patches[k].begin; s < patches[k].end; ++s)
+      set_multiplier(s, means.values.row(static_cast<Eigen::Index>(k)));
+  Eigen::Index row = 0;
+  for (const Touch& touch : touches) set_multiplier(touch.piece, borne.row(row++));
+}
+
 // Instead of the changes of the patches themselves those that groups of them have in common, and their neighbours.
 template <Kinematics K, class Finder>
-void ContactForce<K, Finder>::smooth(const std::vector<Sum>& sums, std::vector<double>& lambda,
-                                     std::vector<Position>& lambda_t) const {
+void ContactForce<K, Finder>::change_evenly(const std::vector<Touch>& touches, Eigen::MatrixXd borne) {
+  Eigen::Index row = 0;
+  for (const Touch& touch : touches) borne.row(row++) -= multiplier(touch.piece);
+  const PatchMeans means = means_of_patches(touches, borne);
   const PatchNeighbours& neighbours = surface_.neighbours();
-  std::vector<double> area(neighbours.groups(), 0.0), change = area;
-  std::vector<Position> change_t(remembers() ? area.size() : 0, Position::Zero());
+  const Eigen::RowVectorXd none = Eigen::RowVectorXd::Zero(borne.cols());
+  std::vector<double> area(neighbours.groups(), 0.0);
   std::vector<char> bears(area.size(), 0);
-  for (std::size_t k = 0; k < sums.size(); ++k) {
-    if (!(sums[k].area > 0)) continue;
+  std::vector<Eigen::RowVectorXd> change(area.size(), none);
+  for (std::size_t k = 0; k < means.bears.size(); ++k) {
+    if (!means.bears[k]) continue;
     const std::size_t group = neighbours.group_of(k);
     bears[group] = 1;
-    area[group] += sums[k].area;
-    change[group] += sums[k].area * (lambda[k] - lambda_[k]);
-    if (remembers()) change_t[group] += sums[k].area * (lambda_t[k] - lambda_t_[k]);
+    area[group] += means.area[k];
+    change[group] += means.area[k] * means.values.row(static_cast<Eigen::Index>(k));
   }
-  for (std::size_t group = 0; group < area.size(); ++group) {
-    if (!bears[group]) continue;
-    change[group] /= area[group];
-    if (remembers()) change_t[group] /= area[group];
-  }
-  for (std::size_t k = 0; k < sums.size(); ++k) {
-    if (!(sums[k].area > 0)) continue;
-    const std::size_t group = neighbours.group_of(k);
-    lambda[k] = std::max(0.0, lambda_[k] + neighbours.smoothed(group, change, bears));
-    if (remembers()) lambda_t[k] = lambda_t_[k] + neighbours.smoothed(group, change_t, bears);
+  for (std::size_t group = 0; group < area.size(); ++group)
+    if (bears[group]) change[group] /= area[group];
+  const auto patches = surface_.patches();
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const Eigen::RowVectorXd even = means.bears[k] ? neighbours.smoothed(neighbours.group_of(k), change, bears) : none;
+    for (std::size_t s = patches[k].begin; s < patches[k].end; ++s)
+      set_multiplier(s, means.bears[k] ? Eigen::RowVectorXd(multiplier(s) + even) : none);
   }
 }
 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::update_multipliers(double t, const double* u, bool evenly) {
   const RigidPlacement<N> placement = this->placement(t, u);
-  std::vector<Sum> sums(surface_.patches().size());
-  std::vector<Touch> touches;
-  for_closed(placement, u, [&](const Touch& touch) {
-    Sum& sum = sums[touch.patch];
-    sum.area += touch.area;
-    sum.force += touch.area * touch.p;
-    sum.shear += touch.area * (placement.Q.transpose() * touch.tau);
-    touches.push_back(touch);
-  });
-  std::vector<double> lambda(sums.size(), 0.0);
-  std::vector<Position> lambda_t(remembers() ? sums.size() : 0, Position::Zero());
-  for (std::size_t k = 0; k < sums.size(); ++k) {
-    if (!(sums[k].area > 0)) continue;
-    lambda[k] = sums[k].force / sums[k].area;
-    if (remembers()) lambda_t[k] = sums[k].shear / sums[k].area;
+  const auto [touches, pieces] = this->touches(placement, u);
+  Eigen::MatrixXd borne(touches.size(), remembers() ? 1 + N : 1);  // p, τ
+  Eigen::Index row = 0;
+  for (const Touch& touch : touches) {
+    borne(row, 0) = touch.p;
+    if (remembers()) borne.row(row).template tail<N>() = placement.Q.transpose() * touch.tau;
+    ++row;
   }
-  if (evenly) smooth(sums, lambda, lambda_t);
-  lambda_ = std::move(lambda);
-  lambda_t_ = std::move(lambda_t);
-  if (!remembers()) return;
+  if (evenly) {
+    change_evenly(touches, std::move(borne));
+  } else {
+    take(touches, TraceFit(surface_, pieces)(borne));
+  }
   for (const Touch& touch : touches)
-    if (touch.slips) drag(placement, touch);
+    if (touch.slips && remembers()) drag(placement, touch);
 }
 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::add_fit(double t, const double* u, ContactFit& fit) const {
-  std::vector<double> area(surface_.patches().size(), 0.0), gap = area, force = area;
   const RigidPlacement<N> placement = this->placement(t, u);
   if (finder_.is_free()) fit.balanced = fit.balanced && balance(t, placement, u).is_near();
-  std::vector<Touch> touches;
-  for_closed(placement, u, [&](const Touch& touch) {
-    area[touch.patch] += touch.area;
-    gap[touch.patch] += touch.area * touch.at.distance;
-    force[touch.patch] += touch.area * touch.p;
-    touches.push_back(touch);
-  });
+  const auto [touches, pieces] = this->touches(placement, u);
+  Eigen::MatrixXd fitted(touches.size(), 2);  // g, p
+  Eigen::Index row = 0;
+  for (const Touch& touch : touches) fitted.row(row++) << touch.at.distance, touch.p;
+  fitted = TraceFit(surface_, pieces)(fitted);
   const auto feel = [&](const Touch& touch, double p, std::vector<double>& unknowns) {
     Point<dim> f;
     for (std::size_t i = 0; i < dim; ++i) f[i] = touch.area * p * touch.at.normal[static_cast<Eigen::Index>(i)];
     surface_.add(touch.piece, f, unknowns, {});
   };
+  row = 0;
   for (const Touch& touch : touches) {
-    const std::size_t k = touch.patch;
     fit.touches = true;
-    fit.misfit = std::max(fit.misfit, std::abs(gap[k]) / area[k] / surface_.patches()[k].cell);
+    fit.misfit = std::max(fit.misfit, std::abs(fitted(row, 0)) / surface_.patches()[touch.patch].cell);
     feel(touch, touch.p, fit.forces);
-    feel(touch, force[k] / area[k] - lambda_[k], fit.changes);
+    feel(touch, fitted(row, 1) - lambda_[touch.piece], fit.changes);
+    ++row;
   }
 }
 
@@ -338,21 +383,12 @@ auto ContactForce<K, Finder>::ways_to_mean_gap(double t, const double* u) const 
   return ways;
 }
 
-// κ s = λ_t − τ
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::follow(const std::vector<PieceOrigin>& origins, std::vector<Position>& slip) {
-  const auto patches = surface_.patches();
-  const auto size = [this](std::size_t s) { return surface_.piece(s).size(); };
-  lambda_ = of_patches_cut_anew(lambda_, origins, patches, size, 0.0);
+  lambda_ = of_pieces_cut_anew(lambda_, origins);
   if (!remembers()) return;
-  const Position none = Position::Zero();
-  const std::vector<Position> lambda_t = of_patches_cut_anew(lambda_t_, origins, patches, size, none);
+  lambda_t_ = of_pieces_cut_anew(lambda_t_, origins);
   slip = of_pieces_cut_anew(slip, origins);
-  for (std::size_t k = 0; k < patches.size(); ++k)
-    for (std::size_t s = patches[k].begin; s < patches[k].end; ++s)
-      if (patches[k].stiffness > 0)
-        slip[s] += (lambda_t[k] - of_patch_before(lambda_t_, origins[s])) / patches[k].stiffness;
-  lambda_t_ = lambda_t;
   anchor_.resize(slip.size());
   closed_.assign(slip.size(), 0);
 }

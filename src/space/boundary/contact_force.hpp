@@ -6,14 +6,13 @@
 //
 //   g = φ(T⁻¹ x),   p = max(0, λ − κ g),   f = A (p n + τ),   R −= w f,   n = ∇φ
 //
-// κ: the stiffness of its patch; λ: the multiplier of the patch, the pressure that needs no penetration. Without
-// friction R has the potential Σ A p²/(2 κ), and its tangent is symmetric,
+// κ: the stiffness of its patch; λ: the multiplier, the pressure that needs no penetration. Without friction R has the
+// potential Σ A p²/(2 κ), and its tangent is symmetric,
 //
 //   ∂f/∂x = −A (κ n nᵀ − p ∇n).
 //
 // A penalty alone gives way by p/κ. The augmented Lagrangian [Simo and Laursen 1992] takes that back: in equilibrium λ
-// becomes the mean p of the patch, and the body goes on to where the mean g is 0. A multiplier for each piece would
-// drift, since the grid's functions cannot tell the pieces of a patch apart.
+// becomes what the grid's functions can tell of p (trace_fit.hpp), and the body goes on to where g has no such part.
 //
 // Friction [Coulomb] and adhesion c: with the anchor a, the position T⁻¹ x at which the piece stuck last, the elastic
 // slip s = (I − n nᵀ)(T⁻¹ x − a) and the multiplier λ_t,
@@ -53,9 +52,8 @@ struct ContactFit {
   explicit ContactFit(std::size_t unknowns) : forces(unknowns, 0.0), changes(unknowns, 0.0) {}
 
   bool touches = false, balanced = true;
-  double misfit = 0;  // the largest mean penetration, or gap, of a patch that is touched [cells]
-  // What the unknowns feel of the pressures, and of the changes of the multipliers by them, (n) each [N]. Pressures
-  // that go to and fro from patch to patch within a cell are hardly felt, and come to their places last.
+  double misfit = 0;  // the largest penetration, or gap, that the grid's functions can tell [cells]
+  // What the unknowns feel of the pressures, and of the changes of the multipliers by them, (n) each [N].
   std::vector<double> forces, changes;
 
   ContactState state() const;
@@ -77,8 +75,8 @@ class ContactForce {
       : surface_(surface),
         finder_(std::move(finder)),
         shear_(shear),
-        lambda_(surface.patches().size(), 0.0),
-        lambda_t_(shear.acts() ? surface.patches().size() : 0, Position::Zero()),
+        lambda_(surface.size(), 0.0),
+        lambda_t_(shear.acts() ? surface.size() : 0, Position::Zero()),
         anchor_(shear.acts() ? surface.size() : 0, Position::Zero()),
         closed_(anchor_.size(), 0) {}
 
@@ -164,25 +162,36 @@ class ContactForce {
     });
   }
   void drag(const RigidPlacement<N>& placement, const Touch& touch);
-  /// What the closed pieces of a patch bear.
-  struct Sum {
-    double area = 0, force = 0;
-    Position shear = Position::Zero();
+  /// The pieces that bear a pressure.
+  struct Touches {
+    std::vector<Touch> all;
+    std::vector<std::size_t> pieces;
   };
-  /// Lets multipliers, (patches), differ from the present ones by changes that are smoothed (patch_neighbours.hpp).
-  void smooth(const std::vector<Sum>& sums, std::vector<double>& lambda, std::vector<Position>& lambda_t) const;
+  Touches touches(const RigidPlacement<N>& placement, const double* u) const;
+  /// Of what touches, by area.
+  struct PatchMeans {
+    std::vector<char> bears;   // (patches)
+    std::vector<double> area;  // likewise [m²]
+    Eigen::MatrixXd values;    // (patches × components); 0 where nothing touches
+  };
+  PatchMeans means_of_patches(const std::vector<Touch>& touches, const Eigen::MatrixXd& values) const;
+  /// λ, and with friction λ_t, as a row.
+  Eigen::RowVectorXd multiplier(std::size_t piece) const;
+  void set_multiplier(std::size_t piece, const Eigen::RowVectorXd& value);
+  /// borne: by the pieces that touch, (touches × components of a multiplier).
+  void take(const std::vector<Touch>& touches, const Eigen::MatrixXd& borne);
+  void change_evenly(const std::vector<Touch>& touches, Eigen::MatrixXd borne);
 
   const ContactSurface<K>& surface_;
   Finder finder_;
   ShearLimit shear_;
   Position settled_ = Position::Zero();  // d of the last commit, from where the next is looked for [m]
-  // Of the patches:
+  // Of the pieces, and all but the first with friction alone:
   std::vector<double> lambda_;      // λ [Pa]
   std::vector<Position> lambda_t_;  // λ_t, in the axes of T⁻¹ x [Pa]
-  // Of the pieces, with friction:
-  std::vector<Position> anchor_;  // a, in the same axes [m]
-  std::vector<char> closed_;      // of commit()
-  std::vector<char> was_there_;   // (bodies up to the last that was); empty in the first stage
+  std::vector<Position> anchor_;    // a, in the same axes [m]
+  std::vector<char> closed_;        // of commit()
+  std::vector<char> was_there_;     // (bodies up to the last that was); empty in the first stage
 };
 
 template <Kinematics K, class Finder>
@@ -191,14 +200,19 @@ void ContactForce<K, Finder>::for_touches(const RigidPlacement<N>& placement, co
                                           const Visit& visit) const {
   const auto patches = surface_.patches();
   const auto reach = [&](std::size_t k) {
-    return (patches[k].stiffness > 0 ? lambda_[k] / patches[k].stiffness : 0) + slack * patches[k].cell;
+    const auto begin = lambda_.begin() + static_cast<std::ptrdiff_t>(patches[k].begin);
+    const double most =
+        *std::max_element(begin, begin + static_cast<std::ptrdiff_t>(patches[k].end - patches[k].begin));
+    return (patches[k].stiffness > 0 ? most / patches[k].stiffness : 0) + slack * patches[k].cell;
   };
   finder_.for_near(placement, u, reach, [&](const typename TouchFinder<K>::Near& near) {
     const double kappa = patches[near.patch].stiffness;
-    Touch touch{near, surface_.area(near.piece), kappa, std::max(0.0, lambda_[near.patch] - kappa * near.at.distance)};
+    const double pressure = lambda_[near.piece] - kappa * near.at.distance;
+    if (!(pressure >= -kappa * slack * patches[near.patch].cell)) return;
+    Touch touch{near, surface_.area(near.piece), kappa, std::max(0.0, pressure)};
     if (shear_.acts()) {
       const Position slip = near.X - anchor_[near.piece];
-      add_shear<K>(shear_, placement.Q * (lambda_t_[near.patch] - kappa * slip), touch);
+      add_shear<K>(shear_, placement.Q * (lambda_t_[near.piece] - kappa * slip), touch);
     }
     visit(touch);
   });

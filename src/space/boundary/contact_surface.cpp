@@ -8,9 +8,17 @@
 #include <fmt/format.h>
 
 namespace stillpoint {
+namespace {
+
+bool is_on_smooth_way_to_rest(const Problem& problem) {
+  return problem.stop.wants_equilibrium() && !problem.rubs() && !problem.solve.is_static();
+}
+
+}  // namespace
+
 template <Kinematics K>
 ContactSurface<K>::ContactSurface(const Problem& problem, const std::vector<char>& touched, const Grid<dim>& grid)
-    : phases_end_(problem.phase.ends()) {
+    : phases_end_(problem.phase.ends()), beta_(is_on_smooth_way_to_rest(problem) ? 0.5 : 1) {
   for (const Axis& axis : grid.axes) extent_ = std::hypot(extent_, axis.max() - axis.min());
   const bool stretches = dim == 2 && problem.phase.ends() &&
                          problem.phase.quadrature != Quadrature::domains;  // as pieces that are carried
@@ -113,7 +121,6 @@ void ContactSurface<K>::take_functions() {
 
 template <Kinematics K>
 void ContactSurface<K>::choose_stiffness(const std::vector<double>& G) {
-  constexpr double beta = 1;
   for (Patch& patch : patches_) {
     if (has_stiffness_[patch.body]) continue;
     double sum = 0, area = 0;
@@ -122,7 +129,7 @@ void ContactSurface<K>::choose_stiffness(const std::vector<double>& G) {
       for (std::size_t e = begin_[s]; e < begin_[s + 1]; ++e)
         if (const double bound = G[static_cast<std::size_t>(weights_[e].first_unknown / dim)]; bound > 0)
           at.add(weights_[e].w, bound);
-      if (at.compliance > 0) sum += area_[s] * beta * at.ww / at.compliance;
+      if (at.compliance > 0) sum += area_[s] * beta_ * at.ww / at.compliance;
       area += area_[s];
     }
     const double of_cell = patch.depth * std::pow(patch.cell, dim - 1);
