@@ -49,6 +49,19 @@ Scene cut(const std::string& stage, const std::vector<std::string>& overrides = 
            overrides));
 }
 
+/// A slope of one point a cell, in which a point's mean over its cell is its own: so phase.dilatation changes nothing.
+const std::string slope_of_one_point_a_cell =
+    "dim = 2\n[grid]\nmin = [0, 0]\nmax = [6, 4]\ncells = [12, 8]\n"
+    "[[body]]\nname = 'base'\nmax = [6, 1]\nmaterial = 'stiff'\nstate = 'plane-strain'\npoints_per_cell = 1\n"
+    "placement = 'gauss'\n"
+    "[[body]]\nname = 'slope'\npolygon = [[0, 1], [5, 1], [3, 3], [0, 3]]\nmaterial = 'stiff'\n"
+    "points_per_cell = 1\nplacement = 'gauss'\n"
+    "[material.stiff]\nlaw = 'mohr-coulomb'\nE = 5e7\nnu = 0.3\nrho = 2000\nc = 15e3\nphi = 25\n"
+    "[material.weak]\nlaw = 'mohr-coulomb'\nE = 5e7\nnu = 0.3\nrho = 2000\nc = 3e3\nphi = 25\n"
+    "[phase]\nmax_motion = 'none'\n[[support]]\nface = 'bottom'\n[[support]]\nface = 'left'\nkind = 'roller'\n"
+    "[body_force]\nvalue = [0, -10]\n[solve]\nmethod = 'newton'\n[stop]\nresidual = 1e-6\n"
+    "[[probe]]\nname = 'crest'\nat = [2.9, 2.9]\nfields = ['u.x', 'u.y']\n";
+
 }  // namespace
 
 TEST_CASE("an embankment in six lifts settles as the closed solution says, by a static solver and in time") {
@@ -265,6 +278,34 @@ TEST_CASE("bodies placed with K0 keep the stress of the weight above them, and o
     }
     CHECK(scenes::probe(s, "top", "u.y") == Approx(-43e3 * 3 / 1e7).epsilon(0.01));  // 1.3 % of strain: its square
   }
+}
+
+TEST_CASE("a static solver finds the equilibrium of a stage that takes strength away, as a motion does") {
+  const auto weakened = [](const std::vector<std::string>& more) {
+    Summary s = scenes::run_text(slope_of_one_point_a_cell,
+                                 with({"stage=[{at=1, change=['base', 'slope'], material=['weak', 'weak'], "
+                                       "equilibrium=true}]"},
+                                      more));
+    CAPTURE(more, s.reason);
+    CHECK(s.status == RunStatus::equilibrium);
+    return scenes::probe(s, "crest", "u.y");
+  };
+  const double settled = weakened({});
+  CHECK(settled < 0);
+  CHECK(settled == Approx(weakened({"phase.dilatation=cells"})).epsilon(1e-3));
+  CHECK(settled == Approx(weakened({"solve.method=relaxation"})).epsilon(0.02));
+}
+
+TEST_CASE("a body placed with a K0 beyond its strength begins with the stress that its law allows") {
+  const auto placed = [](const std::string& dilatation) {
+    Summary s =
+        scenes::run_text(slope_of_one_point_a_cell, {"body[1].material=weak", "phase.dilatation=" + dilatation,
+                                                     "stage=[{at=1, add=['slope'], K0='6', equilibrium=true}]"});
+    CAPTURE(dilatation, s.reason);
+    CHECK(s.status == RunStatus::equilibrium);
+    return scenes::probe(s, "crest", "u.x");
+  };
+  CHECK(placed("points") == Approx(placed("cells")).epsilon(0.01));  // half as much again from a stress beyond it
 }
 
 TEST_CASE("a stage that waits for equilibrium ends when it has come, and later stages begin then") {

@@ -59,7 +59,8 @@ class InternalForce {
     if (undeformed_bound_ == 0 && points_stiffen()) undeformed_bound_ = bound_at_rest();
   }
 
-  /// The strength of the points is another one since the last commit.
+  /// The laws have yet to answer to the committed stresses: since the last commit they are others, or the stresses were
+  /// given to them, and some may lie outside a yield surface.
   void take_new_materials() { materials_are_new_ = true; }
 
   const PointLaws<B, K>& laws() const { return laws_; }
@@ -70,6 +71,7 @@ class InternalForce {
   void archive(const StateArchive& state) {
     state("committed_u", Vec(committed_.u));
     state("committed_t", committed_.t);
+    state("materials_are_new", materials_are_new_);
     if (laws_.share_dilatation()) state("committed_effects_of_averages", Vec(committed_.averages));
   }
   /// Work arrays of the present phase; those over the functions are 0 where no unknown is.

@@ -38,6 +38,7 @@ struct PhaseAssembly {
       conditions.take_over(points->conditions);
       if (frame.begins_from_other_run(points)) conditions.leave_placed(*points, frame.grid);
       rest.take_over(begin.carried->rest);
+      if (stage_gives_stresses()) force.take_new_materials();
     }
     begin_phase(begin.t);
   }
@@ -68,6 +69,10 @@ struct PhaseAssembly {
   RestingParts<B, K> rest{frame, force, limit, conditions, constant_force};
 
  private:
+  // Whether laws of the stage begin with stresses that are not their own answers.
+  bool stage_gives_stresses() const {
+    return problem.present_stage && (!problem.present_stage->change.empty() || problem.present_stage->K0);
+  }
   void make_weights() {
     frame.make_weights();
     force.take_points();
