@@ -31,6 +31,9 @@ struct NewtonOptions {
                                  // memory suffices
   bool accept_unstable = false;  // accepts an unstable equilibrium if there is no stable one on the path that load
                                  // steps follow
+  /// Called at the start, s = 0, and at the equilibrium of each load step, with R and u, (n), and the reactions of the
+  /// supports, (supports); empty: nobody asks.
+  std::function<void(double s, ConstVec R, ConstVec reactions, ConstVec u)> at_equilibrium{};
   /// Describes the fault of the options; empty if there is none.
   std::string validate() const;
 };

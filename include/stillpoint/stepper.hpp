@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace stillpoint {
 
@@ -42,6 +43,11 @@ class Stepper {
     ConstVec velocity{};                       // M⁻¹p of y = [u; p], for a mass known by its inverse: (n) [m/s]
     ConstVec acceleration{};                   // M⁻¹(F − R): (n) [m/s²]
   };
+  /// What was done on the body since start() where loads and supports come on in shares s from 0 to 1, not in time.
+  struct Way {
+    double of_loads = 0;              // ∫ F_s · du [J]
+    std::vector<double> reactions{};  // ∫ R_s ds: (supports) [N]; empty: nothing was done yet
+  };
 
   virtual ~Stepper() = default;
   /// Begins at (t, y), y: (2n), which belongs to the caller and must outlive the stepper.
@@ -63,6 +69,8 @@ class Stepper {
   /// False: it is an iterate at rest.
   virtual bool moves() const = 0;
   virtual Known known() const { return {}; }
+  /// Empty: loads and supports are those of the time.
+  virtual std::optional<Way> way() const { return std::nullopt; }
   /// Estimate of the lowest frequency ω₁ [rad/s] among the motions that the loads drive, if the steps so far allow one;
   /// it may take further steps.
   virtual std::optional<double> lowest_frequency() const { return std::nullopt; }

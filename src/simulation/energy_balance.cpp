@@ -1,6 +1,8 @@
 #include "simulation/energy_balance.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "base/parallel_loop.hpp"
@@ -28,9 +30,11 @@ std::vector<double> EnergyBalance::values(double kinetic_energy) const {
   return {work_, work_ != 0 ? kinetic_energy / std::abs(work_) : none};
 }
 
-void EnergyBalance::advance(double t, const RelaxationSystem& system, ConstVec u) {
+void EnergyBalance::advance(double t, const PhaseMotion& motion) {
   if (!watches_) return;
-  const ConstVec F = system.last().F.span(), reactions = system.last().trial->reactions;
+  if (const auto way = motion.stepper->way()) return advance(t, *way);
+  const RelaxationSystem& system = motion.system;
+  const ConstVec F = system.last().F.span(), reactions = system.last().trial->reactions, u = motion.u();
   const std::vector<double> support = phase_.supports().support_displacements(t);
   if (last_.u.empty())  // the start of the run: nothing has moved yet but supports, from where nothing is deformed
     last_ = {copy_of(F), copy_of(u), std::vector(reactions.size(), 0.0), std::vector(support.size(), 0.0)};
@@ -43,22 +47,32 @@ void EnergyBalance::advance(double t, const RelaxationSystem& system, ConstVec u
   t_ = t;
 }
 
+// Supports of the first phase have gone all the way from where nothing is deformed; there is no last_ then.
+void EnergyBalance::advance(double t, const Stepper::Way& way) {
+  const std::vector<double> support = phase_.supports().support_displacements(t);
+  work_ = earlier_work_ + way.of_loads;
+  for (std::size_t s = 0; s < std::min(support.size(), way.reactions.size()); ++s)
+    work_ += way.reactions[s] * (support[s] - (s < last_.support.size() ? last_.support[s] : 0));
+  t_ = t;
+}
+
 void EnergyBalance::begin_phase(double t, const RelaxationSystem& system) {
   if (!watches_) return;
+  earlier_work_ = work_;
   last_ = {copy_of(system.last().F.span()), std::vector(system.size(), 0.0), system.last().trial->reactions,
            phase_.supports().support_displacements(t)};
 }
 
-void EnergyBalance::go_on(double work, double t, const RelaxationSystem& system) {
+void EnergyBalance::go_on(double work, double t, double now, const RelaxationSystem& system) {
   work_ = work;
-  t_ = t;
+  t_ = now;
   if (!watches_) return;
-  power_ = wall_power(t);
+  power_ = wall_power(now);
   begin_phase(t, system);
 }
 
 void EnergyBalance::archive(const StateArchive& state) {
-  state("work", work_, "t", t_, "power", power_);
+  state("work", work_, "t", t_, "power", power_, "earlier_work", earlier_work_);
   state.none_or(phase_.size(), "u", last_.u);
   const std::size_t n = last_.u.size(), supports = n > 0 ? phase_.supports().support_displacements(t_).size() : 0;
   last_.F.resize(n);

@@ -83,7 +83,7 @@ void Recorder::add_row(RunState& run) {
   PhaseMotion& motion = *run.motion;
   const Measurements::Figures& measured = run.measured.all();
   const HistoryRow row{t, run.steps(), run.evaluations(), measured.residual, measured.kinetic_energy};
-  energy_balance_.advance(t, motion.system, motion.u());
+  energy_balance_.advance(t, motion);
   std::vector<double> values = probes_.read(t, motion.u(), motion.v());
   std::ranges::copy(reaction_values(problem_, phase_, t, motion), std::back_inserter(values));
   std::ranges::copy(contact_values(problem_, phase_, t, motion.u()), std::back_inserter(values));
@@ -115,7 +115,7 @@ void Recorder::end_phase(RunState& run) {
   probes_.end_phase(run.t, run.motion->u(), run.motion->v());
   if (!energy_balance_.watches()) return;
   run.motion->evaluate(run.t);
-  energy_balance_.advance(run.t, run.motion->system, run.motion->u());
+  energy_balance_.advance(run.t, *run.motion);
 }
 void Recorder::begin_phase(RunState& run) {
   probes_.begin_phase(run.t, run.motion->u(), run.motion->v());
@@ -146,7 +146,8 @@ void Recorder::go_on(const StateArchive& state, RunState& run, double work) {
   while (static_cast<double>(rows_) * interval_ <= run.t) ++rows_;  // a static solver goes on from one end to the next
   probes_.begin_stage(run.t, run.motion->u(), run.motion->v());
   run.motion->evaluate(run.t);
-  energy_balance_.go_on(work, run.t, run.motion->system);
+  const double begin = run.model.static_method ? run.stage.t : run.t;
+  energy_balance_.go_on(work, begin, run.t, run.motion->system);
 }
 
 void Recorder::finish(double t, const PhaseMotion* motion) {
@@ -158,6 +159,7 @@ void Recorder::finish(double t, const PhaseMotion* motion) {
 void Recorder::fill(Summary& s, RunState& run) {
   const double t = run.t;
   const PhaseMotion& motion = *run.motion;
+  if (motion.stepper->way()) energy_balance_.advance(t, motion);  // it may have come to its end without a time
   if (energy_balance_.watches()) s.external_work = energy_balance_.external_work();
   s.snapshots = snapshots_.taken();
   if (const auto load = phase_.supports().load_state(t, motion.u()))

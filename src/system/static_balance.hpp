@@ -52,6 +52,8 @@ class StaticBalance {
   }
   /// ‖Q‖/‖F‖, or ‖Q‖ relative to the scale that replaces ‖F‖ (ForceScale).
   double residual() const { return relative(norm(Q), scale_); }
+  /// The internal force at the last evaluation, (n) [N].
+  const Vector& R() const { return R_; }
   /// The history of the points after the last evaluation, not yet committed.
   TrialState& trial() { return *trial_; }
 

@@ -122,12 +122,18 @@ PlasticPath::PlasticPath(const RunState& run)
   next_ = model_.t;
 }
 
+// With a static solver each share of its loads is there at once, and what yields under it does so out of balance with
+// this share. At its start supports may stand at the end of their way beside a body that has not followed: that is
+// no balance, and no work of theirs.
 void PlasticPath::sample(RunState& run) {
   if (!run.options.stops) return;
   const double residual = run.measured.all().residual, power = run.measured.all().power;
   RelaxationSystem& system = run.motion->system;
-  const double now = giving_way_.plastic_strain(), imbalance = residual * across_loads(run.t, system);
-  if (!std::exchange(begun_, true)) {
+  const double now = giving_way_.plastic_strain(),
+               imbalance = model_.static_method ? std::min(residual, 1.0) / run.scene.solve.load_steps
+                                                : residual * across_loads(run.t, system);
+  const bool begins = !std::exchange(begun_, true);
+  if (begins) {
     first_ = now;
   } else {
     against_ += share_below_zero(power_, power) * (now - last_);
@@ -136,7 +142,7 @@ void PlasticPath::sample(RunState& run) {
   last_ = now;
   imbalance_ = imbalance;
   power_ = power;
-  work_ = std::max(work_, earlier_work_ + work(run.t, *run.motion));
+  if (!begins || !model_.static_method) work_ = std::max(work_, earlier_work_ + work(run.t, *run.motion));
   next_ = run.t + interval_;
 }
 
@@ -181,9 +187,8 @@ double PlasticPath::plastic_work(double t, ConstVec u) const {
   });
 }
 
-// ‖Q_⊥‖/‖Q‖. A static solver has no way: its loads are there at once, and all that yields does so out of balance.
+// ‖Q_⊥‖/‖Q‖
 double PlasticPath::across_loads(double t, const RelaxationSystem& system) {
-  if (model_.static_method) return 1;
   const ConstVec F = system.last().F.span();
   Q_.resize(F.size());
   system.last_out_of_balance(t, Q_);

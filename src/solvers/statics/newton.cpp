@@ -35,6 +35,7 @@ class Newton {
       report_.reason = "the state at the start cannot be evaluated: " + system_.diagnosis().refusal(balance_.trial());
       return finished();
     }
+    tell_equilibrium(0, u_);
     std::vector<double> u(u_.begin(), u_.end());
     LoadIncrements load({1.0 / options_.load_steps, options_.max_load_step, options_.min_load_step});
     while (!load.at_end()) {
@@ -46,6 +47,7 @@ class Newton {
         if (system_.history_dependent()) last_.remember(step.to - step.from, u_, u);
         std::ranges::copy(u, u_.begin());
         report_.load_factor = step.to;
+        tell_equilibrium(step.to, u_);
         if (system_.history_dependent()) system_.commit(balance_.trial());
         refused_ = false;
         constexpr std::size_t easy = 9;
@@ -71,6 +73,10 @@ class Newton {
   bool evaluate(double s, ConstVec u) {
     system_.move_supports_on(supports_set_out_ ? s : 1);
     return balance_.evaluate(s, u);
+  }
+  void tell_equilibrium(double s, ConstVec u) {
+    if (options_.at_equilibrium)
+      options_.at_equilibrium(s, std::as_const(balance_).R().span(), balance_.trial().reactions, u);
   }
   // u: the state at step.from, then the equilibrium at step.to; if there is none, report_.reason says why. A slender
   // body has a valley of bent states between walls of stretched ones: a search that asks each step for a smaller ‖Q‖

@@ -6,7 +6,9 @@
 
 #include "solvers/spectrum/direct_solver_limit.hpp"
 #include "solvers/statics/static_methods.hpp"
+#include "solvers/statics/static_way.hpp"
 #include "solvers/statics/without_time.hpp"
+#include "system/static_balance.hpp"
 
 namespace stillpoint {
 namespace {
@@ -23,6 +25,12 @@ class NewtonStep final : public WithoutTime<Stepper> {
   // Solves at the t of the start, as time does not advance. A second step solves once more, from the last answer and to
   // a smaller residual.
   StepReport step(double /*t_stop*/) override {
+    const bool supports_set_out = is_undisplaced(first_half(std::as_const(state()).span()));
+    options_.at_equilibrium = [this, supports_set_out](double s, ConstVec R, ConstVec reactions, ConstVec u) {
+      const double share = supports_set_out ? s : 1;
+      if (s == 0) return way_.begin(share, R, reactions, u);
+      way_.go_on(share, R, reactions, u);
+    };
     const StaticReport report = newton(system().system(), t_, first_half(state().span()), options_);
     steps_ += report.iterations;
     system().count_evaluations(report.force_evaluations + report.tangent_products);
@@ -42,13 +50,18 @@ class NewtonStep final : public WithoutTime<Stepper> {
     forces_changed_ = true;
   }
   void set_max_step(double /*h*/) override {}
-  void archive(const StateArchive& state) override { state("iterations", steps_, "forces_changed", forces_changed_); }
+  std::optional<Way> way() const override { return way_.so_far(); }
+  void archive(const StateArchive& state) override {
+    state("iterations", steps_, "forces_changed", forces_changed_);
+    way_.archive(state.part("way"), system().size(), system().last().trial->reactions.size());
+  }
 
  private:
   NewtonOptions options_;
   double tolerance_;             // of the first answer
   bool forces_changed_ = false;  // since then
   double t_ = 0;
+  StaticWay way_;
 };
 
 }  // namespace

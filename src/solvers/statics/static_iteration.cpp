@@ -42,6 +42,7 @@ bool StaticIteration::begin(double t, const Vector& y) {
   supports_set_out_ = is_undisplaced(u);
   move_supports_on(0);
   if (!system().out_of_balance(t, u, Q_begin_.span())) return false;
+  way_.begin(supports_set_out_ ? 0 : 1, system().last().R.span(), system().last().trial->reactions, u);
   std::ranges::fill(Q_.span(), 0.0);
   is_lost_ = false;
   return begin_increment(t, 0, u);
@@ -76,6 +77,7 @@ void StaticIteration::archive_memory(const StateArchive& state) {
   state("steps_of_this", steps_of_this_);
   load_.archive(state);
   state("supports_set_out", supports_set_out_);
+  way_.archive(state.part("way"), system().size(), system().last().trial->reactions.size());
   archive_method(state);
   if (state.restores()) move_supports_on(load_.to());
 }
@@ -83,6 +85,11 @@ void StaticIteration::archive_memory(const StateArchive& state) {
 // True if that changes the forces. Supports stay where they are if the iteration began with a displaced body.
 bool StaticIteration::move_supports_on(double share) {
   return supports_set_out_ && system().system().move_supports_on(share);
+}
+
+std::optional<Stepper::Way> StaticIteration::way() const {
+  const Evaluation& now = system().last();
+  return way_.up_to(share_of_supports(), now.R.span(), now.trial->reactions, first_half(std::as_const(*y_).span()));
 }
 
 // Evaluates Q_s at s = load_.to(), to which share of their way supports have gone.
@@ -135,6 +142,8 @@ void StaticIteration::accepted() {
 
 void StaticIteration::end_increment() {
   system().accept(system().last().t, state().span(), /*force_is_current=*/true);
+  way_.go_on(share_of_supports(), system().last().R.span(), system().last().trial->reactions,
+             first_half(std::as_const(state()).span()));
   if (steps_of_first_ == 0) steps_of_first_ = steps_of_this_;
   const double s = load_.to();
   load_.reached(/*easily=*/steps_of_this_ <= steps_of_first_);

@@ -17,6 +17,7 @@
 #include "solvers/statics/line_search.hpp"
 #include "solvers/statics/load_increments.hpp"
 #include "solvers/statics/static_methods.hpp"
+#include "solvers/statics/static_way.hpp"
 #include "solvers/statics/without_time.hpp"
 
 namespace stillpoint {
@@ -27,6 +28,7 @@ class StaticIteration : public WithoutTime<TrialStepper> {
   Known known() const final {
     return {.force = true, .acceleration = is_admissible() && load_.to() >= 1 ? z_.span() : ConstVec()};
   }
+  std::optional<Way> way() const final;
 
  protected:
   /// Throws std::invalid_argument if the body has contact.
@@ -58,6 +60,7 @@ class StaticIteration : public WithoutTime<TrialStepper> {
   void archive_memory(const StateArchive& state) final;
 
   bool move_supports_on(double share);
+  double share_of_supports() const { return supports_set_out_ ? load_.to() : 1; }
   bool evaluate(double t, ConstVec u, Vector& Q);
   void add_to(Vector& Q, double share) const;
   bool search(double t, Vec u_new);
@@ -71,6 +74,7 @@ class StaticIteration : public WithoutTime<TrialStepper> {
   LineSearch::Accuracy sigma_;
   double tolerance_;
   LoadIncrements load_;
+  StaticWay way_;  // up to the beginning of the increment
   Vector Q_, z_, next_Q_, p_;
   Vector u_begin_, Q_begin_;  // u at the beginning of the increment; Q(u₀)
   double alpha_ = 0;
