@@ -63,8 +63,8 @@ std::vector<Load> loads_of(const Problem& problem) {
   return loads;
 }
 
-// A problem is still if no support, wall or rigid body moves or is displaced, and nothing moves or is deformed at the
-// start.
+// A problem is still if no support, wall or rigid body moves or is displaced, and nothing moves, is deformed or bears a
+// stress at the start: that of [initial] may be out of balance, and so may that of another run.
 bool is_still(const Problem& problem) {
   const auto stays = [](const auto& held) { return held.motion.constant() && held.motion({}, 0) == 0; };
   const auto is_zero = [](const Expression& motion) { return motion.constant() && motion({}, 0) == 0; };
@@ -72,7 +72,8 @@ bool is_still(const Problem& problem) {
     return !rigid.free && std::ranges::all_of(rigid.motion, is_zero) && std::ranges::all_of(rigid.rotation, is_zero);
   };
   return std::ranges::all_of(problem.supports, stays) && std::ranges::all_of(problem.walls, stays) &&
-         std::ranges::all_of(problem.rigid, rests) && problem.initial_u.empty() && problem.initial_v.empty();
+         std::ranges::all_of(problem.rigid, rests) && problem.initial_u.empty() && problem.initial_v.empty() &&
+         problem.initial_stress.empty() && !problem.geostatic && problem.initial_from.empty();
 }
 
 void note_loads(const Problem& problem, const LagrangianPhase& phase, ConstVec u, Notes& notes) {

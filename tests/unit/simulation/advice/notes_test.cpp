@@ -181,6 +181,11 @@ TEST_CASE("a body on which nothing acts is said to stay as it is") {
   CHECK(says(notes_of(block_scene({unloaded})), still));
   CHECK_FALSE(says(notes_of(block_scene({unloaded, "support=[{face='bottom', u=0.1}]"})), still));
   CHECK_FALSE(says(notes_of(block_scene({unloaded, "initial.v=[0, 1]"})), still));
+  // A stress that nothing balances.
+  const std::string soil = "material.soil={law='mohr-coulomb', E=2e7, nu=0.3, rho=2000, c=2e5, phi=25}",
+                    single = "phase.max_motion=none";
+  CHECK(says(notes_of(block_scene({unloaded, soil, single})), still));
+  CHECK_FALSE(says(notes_of(block_scene({unloaded, soil, single, "initial.stress=[-1e4, -1e5, -1e4, 0]"})), still));
   CHECK_FALSE(says(notes_of(block_scene()), still));
 }
 
