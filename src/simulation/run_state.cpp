@@ -70,10 +70,12 @@ Model RunState::set_up() {
     heed_stop_request();
     if (options.ranks) refuse_what_ranks_lack(scene);
     if (stage.number == 0 && !scene.stages.empty()) check_ground_of_later_stages(scene);
-    if (!scene.initial_from.empty() && !stage.carried) stage.carried = points_of_other_run(scene);
+    std::vector<std::string> notes;
+    if (!scene.initial_from.empty() && !stage.carried) stage.carried = points_of_other_run(scene, notes);
     Model made = make_model(scene, require_memory(make_plan(scene)), stage.carried ? nullptr : options.store,
                             {.carried = stage.carried.get(), .t = stage.t, .ranks = options.ranks.get()});
     if (!scene.initial_from.empty() && stage.number == 0) refuse_sparse_points(scene, *made.phase);
+    made.notes.insert(made.notes.begin(), notes.begin(), notes.end());
     return made;
   } catch (const Stopped&) {
     throw SetUpStopped(end_request.status(), end_request.reason() + " in the set-up; the run has not begun",

@@ -112,6 +112,36 @@ TEST_CASE("a checkpoint that is none, or of other bodies, is refused where the s
              Catch::Contains("goes with from, another run"));
 }
 
+TEST_CASE("a body of another run that this scene lacks is refused by its name, unless a stage brings it") {
+  const test::TemporaryFolder folder;
+  const std::string below = "{name='below', max=['h', '2*h'], material='fill', state='plane-strain'}",
+                    above = "{name='above', min=[0, '2*h'], max=['h', '3*h'], material='fill'}",
+                    higher = "{name='higher', min=[0, '3*h'], max=['h', '4*h'], material='fill'}";
+  const std::vector<std::string> set = with(column_of("law=hencky"), {"body=[" + below + ", " + above + "]"});
+  const std::string from = "initial.from=" + leaves(folder, set).string();
+  CHECK_THROWS_WITH(Simulation(scenes::load("ladder/lifts", with(set, {from, "body[0].name=ground"}))),
+                    Catch::Contains("initial.from") &&
+                        Catch::Contains("this scene lacks bodies of the other run: 'below'; it begins with 'ground', "
+                                        "'above'; expected all bodies of the other run under their names"));
+  CHECK_THROWS_WITH(Simulation(scenes::load("ladder/lifts", with(set, {from, "body=[" + below + "]"}))),
+                    Catch::Contains("this scene lacks bodies of the other run: 'above'; it begins with 'below'"));
+  CHECK_NOTHROW(Simulation(scenes::load("ladder/lifts", with(set, {from, "stage=[{at=1, add=['above']}, {at=2}]"}))));
+  CHECK_NOTHROW(Simulation(
+      scenes::load("ladder/lifts", with(set, {from, "body=[" + below + ", " + above + ", " + higher + "]",
+                                              "stage=[{at=1, add=['higher']}, {at=2, remove=['above']}]"}))));
+}
+
+TEST_CASE("a body whose shape is not that of the other run is told, and has that run's points all the same") {
+  const test::TemporaryFolder folder;
+  const std::vector<std::string> set = column_of("law=hencky");
+  const std::string from = "initial.from=" + leaves(folder, set).string(), told = "body[0] has another shape than in ";
+  const Summary same = run(scenes::load("ladder/lifts", with(set, {from}))),
+                shorter = run(scenes::load("ladder/lifts", with(set, {from, "body[0].max=['h', '2*h']"})));
+  CHECK_FALSE(test::says(same, told));
+  CHECK(test::says(shorter, told));
+  CHECK(shorter.points == same.points);
+}
+
 TEST_CASE("a body of another shape than in the other run, of which a border is needed, is refused") {
   const test::TemporaryFolder folder;
   const std::vector<std::string> set = column_of("law=hencky");
