@@ -189,6 +189,21 @@ TEST_CASE("a body on which nothing acts is said to stay as it is") {
   CHECK_FALSE(says(notes_of(block_scene()), still));
 }
 
+TEST_CASE("shared changes of volume are not advised, and are told, where friction without cohesion bears the surface") {
+  const auto layer = [](const std::string& c, const std::string& dilatation) {
+    return notes_of(scenes::load("ladder/sliding_layer", {"material.soil.psi=0", "constants.r=1",
+                                                          "material.soil.c=" + c, "phase.dilatation=" + dilatation}));
+  };
+  const std::string locks = "phase.dilatation = \"cells\" lets them flow", early = "would give way too early",
+                    too_weak = "a factor of safety may be too small";
+  const std::string little = "0", much = "'0.2*along*H'";
+  CHECK(says(layer(little, "points"), early));
+  CHECK(says(layer(little, "cells"), too_weak));
+  CHECK(says(layer(much, "points"), locks));
+  CHECK_FALSE(says(layer(much, "points"), early));
+  CHECK_FALSE(says(layer(much, "cells"), too_weak));
+}
+
 TEST_CASE("a support on a face that no material reaches is named") {
   CHECK(says(notes_of(block_scene({"support=[{face='bottom'}, {face='right'}]"})), "support[1] holds nothing"));
   CHECK_FALSE(says(notes_of(block_scene()), "holds nothing"));
