@@ -1,9 +1,11 @@
 #include "space/boundary/body_contact.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -38,6 +40,22 @@ std::vector<typename CarriedPoint<dimensions(K)>::Entry> weights_at(const Opposi
   for (auto& entry : entries)
     for (std::size_t d = 0; d < facet.foot.size(); ++d) entry.w += (facet.foot[d] - x[d]) * entry.dN[d];
   return entries;
+}
+
+/// In the plane without a third component.
+template <std::size_t Dim>
+Eigen::Vector3d in_space(const std::array<double, Dim>& vector) {
+  Eigen::Vector3d all = Eigen::Vector3d::Zero();
+  for (std::size_t d = 0; d < Dim; ++d) all[static_cast<Eigen::Index>(d)] = vector[d];
+  return all;
+}
+
+/// By how much a normal has turned beyond the turn Q of another one, the shortest that there is:
+///   the angle between Q n and n',   N' = Q N.
+double angle_of_turn(const Eigen::Vector3d& n, const Eigen::Vector3d& n_now, const Eigen::Vector3d& N,
+                     const Eigen::Vector3d& N_now) {
+  const Eigen::Vector3d carried = Eigen::Quaterniond::FromTwoVectors(N, N_now) * n;
+  return std::atan2(carried.cross(n_now).norm(), carried.dot(n_now));
 }
 
 }  // namespace
@@ -85,7 +103,7 @@ void BodyContact<K>::oppose(Pair& pair, const Parts& phase) const {
   for (std::size_t s = 0; s < facets.size(); ++s) {
     const auto facet = search.opposite(pair.first.start(s), pair.first.normal(s));
     if (!facet) continue;
-    facets[s] = {true, facet->gap, TouchFinder<K>::position_of(facet->normal)};
+    facets[s] = {true, facet->gap, TouchFinder<K>::position_of(facet->normal), facet->piece};
     feet[s] = weights_at<K>(*facet, pair.second.piece(facet->piece), problem_.phase.ends(), phase);
   }
   pair.first.move_relative_to(phase, feet);
@@ -211,6 +229,24 @@ void BodyContact<K>::add_entries(Tangent kind, const double* u, MatrixEntries& e
   }
 }
 
+// Each border turns with its normal. One piece of a patch tells as much as all of them: three on a generator of a
+// cylinder lie on a line, and the lines between pieces say nothing of a turn about it.
+template <Kinematics K>
+double BodyContact<K>::turned(const Pair& pair, const double* u) {
+  double most = 0;
+  const std::vector<char> bears = pair.force.bearing_patches({}, u);
+  const auto patches = pair.first.patches();
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    for (std::size_t s = patches[k].begin; bears[k] && s < patches[k].end; ++s) {
+      if (!pair.force.finder().is_there(s)) continue;
+      const BorderPiece<K>&piece = pair.first.piece(s), &opposite = pair.second.piece(pair.force.finder().opposite(s));
+      most = std::max(most, angle_of_turn(in_space(piece.vector), in_space(piece.deformed_area(u)),
+                                          in_space(opposite.vector), in_space(opposite.deformed_area(u))));
+    }
+  }
+  return most;
+}
+
 template <Kinematics K>
 double BodyContact<K>::growth() const {
   double most = 1;
@@ -240,7 +276,7 @@ void BodyContact<K>::add_reports(const double* u, std::vector<ContactReport>& to
     if (are_there(problem_, pair->spec)) {
       report = pair->force.report(0, u);
       report.slid = pair->force.slid(u);
-      report.turned = pair->force.turned(u);
+      report.turned = turned(*pair, u);
     }
     report.name = pair->spec.name();
     to.push_back(std::move(report));

@@ -71,6 +71,9 @@ class BodyContact {
   void oppose(Pair& pair, const Parts& phase) const;
   void refuse_overlap(const Pair& pair) const;
   static void end_phase_of(Pair& pair, const double* u);
+  /// By how much the borders of the two bodies have turned on each other where they touch since the phase began, where
+  /// most [rad].
+  static double turned(const Pair& pair, const double* u);
   static std::string name_of(const Pair& pair);
   static void archive_slip(const StateArchive& state, Pair& pair);
 

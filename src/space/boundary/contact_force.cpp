@@ -4,7 +4,6 @@
 #include <map>
 #include <span>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "space/boundary/facet_finder.hpp"
@@ -433,30 +432,6 @@ double ContactForce<K, Finder>::slid(const double* u) const {
     const Position moved = TouchFinder<K>::position_of(surface_.motion(touch.piece, u));
     const Position along = moved - touch.at.normal.dot(moved) * touch.at.normal;
     most = std::max(most, along.norm() / surface_.patches()[touch.patch].cell);
-  });
-  return most;
-}
-
-// By the angle between the lines to another piece of the patch, and in space between the normals of two such lines.
-template <Kinematics K, class Finder>
-double ContactForce<K, Finder>::turned(const double* u) const {
-  using InSpace = Eigen::Vector3d;
-  double most = 0;
-  const auto angle = [](const InSpace& a, const InSpace& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); };
-  for_closed(finder_.placement(0), u, [&](const Touch& touch) {
-    const auto& patch = surface_.patches()[touch.patch];
-    std::vector<InSpace> before, now;
-    for (std::size_t s = patch.begin; s < patch.end; ++s) {
-      if (s == touch.piece) continue;
-      InSpace from = InSpace::Zero(), to = InSpace::Zero();
-      for (std::size_t i = 0; i < dim; ++i) {
-        from[static_cast<Eigen::Index>(i)] = surface_.start(s)[i] - surface_.start(touch.piece)[i];
-        to[static_cast<Eigen::Index>(i)] = surface_.position(s, u)[i] - surface_.position(touch.piece, u)[i];
-      }
-      before.push_back(from), now.push_back(to);
-    }
-    if (dim == 2 && !before.empty()) most = std::max(most, angle(before[0], now[0]));
-    if (dim == 3 && before.size() > 1) most = std::max(most, angle(before[0].cross(before[1]), now[0].cross(now[1])));
   });
   return most;
 }

@@ -125,8 +125,6 @@ class ContactForce {
   ContactReport report(double t, const double* u) const;
   /// How far pieces that touch have moved along what they touch since the phase began, where most [cells].
   double slid(const double* u) const;
-  /// By how much they have turned on it, where most [rad].
-  double turned(const double* u) const;
   /// T, of a free body with its d.
   RigidPlacement<N> placement(double t, const double* u) const;
   /// Whether a piece of a patch bears a pressure, (patches).

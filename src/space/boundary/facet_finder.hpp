@@ -27,6 +27,7 @@ class FacetFinder {
     bool is_there = false;
     double gap = 0;                      // n·(x_s − x_m) [m]
     Position normal = Position::Zero();  // n
+    std::size_t opposite = 0;            // its piece of the other border
   };
 
   /// The surface must outlive this object.
@@ -36,6 +37,8 @@ class FacetFinder {
   void oppose(std::vector<Facet> facets) { facets_ = std::move(facets); }
   bool has_facets() const { return !facets_.empty(); }
   bool is_there(std::size_t piece) const { return facets_[piece].is_there; }
+  /// The piece of the other border whose facet a piece has.
+  std::size_t opposite(std::size_t piece) const { return facets_[piece].opposite; }
   /// Whether a piece is closed at u, (pieces), so that it feels what it touches.
   std::vector<char> closed(const double* u) const {
     std::vector<char> closed(facets_.size(), 0);

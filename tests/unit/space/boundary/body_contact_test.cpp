@@ -170,4 +170,46 @@ TEST_CASE("multipliers keep the pressure between bodies where they are taken, an
   CHECK(phase->supports().contacts(0, u).at(0).force[1] == Approx(2 * before).epsilon(1e-12));  // λ + κ g, with λ = κ g
 }
 
+TEST_CASE(
+    "bodies that turn on each other tell the angle, and those that slide, or rest on a generator, have not turned") {
+  // The first border's pieces lie on both sides of the edge of the block, which slides by a cell.
+  for (const char* bodies : {"['base', 'block']", "['block', 'base']"}) {
+    CAPTURE(bodies);
+    const Scene scene = stack({.gap = -0.02, .bodies = bodies});
+    const auto phase = make_phase(scene);
+    const std::size_t of_base = make_phase(without(scene, "block"))->size();
+    std::vector<double> u(phase->size(), 0.0);
+    for (std::size_t k = of_base; k < u.size(); k += 2) u[k] = 0.5;  // along x
+    CHECK(phase->supports().contacts(0, u).at(0).turned < 1e-12);
+    // The block turns about the middle of its lower face; then both turn.
+    constexpr double angle = 2;
+    const NodalLayout layout = phase->shape().layout();
+    for (const std::size_t first : {of_base, std::size_t{0}}) {
+      CAPTURE(first);
+      for (std::size_t k = first; k < u.size(); ++k) {
+        const auto node = 2 * static_cast<std::size_t>(layout.node[k]);
+        const double x = layout.positions[node] - 0.9, y = layout.positions[node + 1] - 0.85;
+        u[k] = layout.component[k] == 0 ? (std::cos(angle) - 1) * x - std::sin(angle) * y
+                                        : std::sin(angle) * x + (std::cos(angle) - 1) * y;
+      }
+      const ContactReport report = phase->supports().contacts(0, u).at(0);
+      if (first > 0) REQUIRE(report.area > 0);
+      CHECK(report.turned == Approx(first > 0 ? angle : 0).margin(1e-9));
+    }
+  }
+  // Pieces on a generator of a cylinder lie on a line, but for rounding.
+  const auto phase = make_phase(load_scene(
+      "cylinder.toml",
+      "dim = 3\ngrid = {min = [0, 0, 0], max = [1, 1, 1.2], cells = [8, 8, 10]}\n"
+      "body = [{name = 'b', min = [0, 0, 0], max = [1, 1, 0.44], material = 'm', placement = 'gauss'},\n"
+      "{name = 's', cylinder = [[0.5, 0.1, 0.735], [0.5, 0.9, 0.735]], radius = 0.3, material = 'm', placement = "
+      "'gauss'}]\n"
+      "material.m = {law = 'linear-elastic', E = 1e4, nu = 0.3, rho = 1}\ncontact = [{bodies = ['s', 'b']}]\n"
+      "damping = {c = 1}\n",
+      {}));
+  const ContactReport report = phase->supports().contacts(0, some_motion(phase->size(), 1e-4)).at(0);
+  REQUIRE(report.area > 0);
+  CHECK(report.turned < 0.1);
+}
+
 }  // namespace stillpoint::test
