@@ -98,6 +98,37 @@ TEST_CASE("a block that slides on a rigid plane for ever ends the run, which say
   }
 }
 
+TEST_CASE(
+    "a smooth round free body that is pushed along a border comes to no rest between two places that feel contact") {
+  const auto ground = [](const char* body, const char* rigid, const char* cells) {
+    return fmt::format(
+               "dim = 2\n[grid]\nmin = [0, 0]\nmax = [4, 1.5]\ncells = {}\n[body]\n{}\nmaterial = 'm'\n"
+               "placement = 'gauss'\n[material.m]\nlaw = 'linear-elastic'\nE = 1e6\nnu = 0.3\nrho = 1\n"
+               "[[support]]\nface = 'bottom'\n[[rigid]]\nname = 'disc'\nradius = 0.5\nfree = true\n{}\n",
+               cells, body, rigid) +
+           "[damping]\nstrategy = 'auto'\n[stop]\nresidual = 1e-8\n";
+  };
+  const char* const flat = "min = [0, 0]\nmax = [4, 1.03]";
+  for (const char* cells : {"[32, 12]", "[64, 24]"}) {
+    CAPTURE(cells);
+    const Summary pushed = run_text(ground(flat, "disc = [1.0, 1.55]\nforce = [1, -100]", cells));
+    CAPTURE(pushed.reason);
+    CHECK(pushed.status != RunStatus::equilibrium);
+    CHECK_THAT(pushed.reason, Contains("'disc' is held in between the few places") || Contains("is held by nothing"));
+  }
+  // Straight down it may stand anywhere, friction bears a push, and so do the two sides of a groove.
+  for (const char* rigid : {"disc = [1.0, 1.55]\nforce = [0, -100]", "disc = [2.03, 1.55]\nforce = [0, -100]",
+                            "disc = [1.0, 1.55]\nforce = [1, -100]\nfriction = 0.3"}) {
+    CAPTURE(rigid);
+    CHECK(run_text(ground(flat, rigid, "[32, 12]")).status == RunStatus::equilibrium);
+  }
+  const Summary in_groove =
+      run_text(ground("polygon = [[0, 0], [4, 0], [4, 1.4], [3, 1.4], [2, 0.4], [1, 1.4], [0, 1.4]]",
+                      "disc = [2.0, 1.15]\nforce = [30, -100]", "[32, 12]"));
+  CAPTURE(in_groove.reason);
+  CHECK(in_groove.status == RunStatus::equilibrium);
+}
+
 TEST_CASE("a driven rigid body whose sharp corner drags a border says by how much its force is off") {
   // A box that is pushed along a block behind the places of its top that feel contact.
   const Summary s = run_text(dragged_box(""));

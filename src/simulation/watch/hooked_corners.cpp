@@ -1,6 +1,7 @@
-// Rigid bodies that hang by a sharp corner. Contact is felt at the pieces of a border. A corner that has sunk in by
+// Rigid bodies that are held across a border. Contact is felt at the pieces of a border. A corner that has sunk in by
 // less than a cell has one piece beside it, which its side pushes along the border: the smooth border of the material
-// would not bear that, and a body that should slide would rest behind each piece that it comes to.
+// would not bear that, and a body that should slide would rest behind each piece that it comes to. A round body that
+// touches no more than a cell is held likewise in between two pieces.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -44,6 +45,25 @@ std::string fault_of_corners(const Problem& problem, const LagrangianPhase& phas
       found->body, found->share);
 }
 
+/// A free rigid body that would slide if the border bore what pushes it along its own normals alone. What a border that
+/// goes around it bears in between its pieces is less than that, as are the tilts of its cells.
+std::string fault_across(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
+  constexpr double little = 5e-3;
+  const std::vector<ContactReport> reports = phase.supports().contacts(t, u);
+  for (std::size_t r = 0; r < problem.rigid.size(); ++r) {
+    const auto& [x, y, z] = reports[r].force;
+    const double force = std::hypot(x, y, z), across = reports[r].across;
+    if (!problem.rigid[r].free || !(across > std::max(little * force, reports[r].shear_left))) continue;
+    return fmt::format(
+        "{} is held in between the few places of a border that feel contact with it: {:.2g} of the force on it acts "
+        "across the normals of that border, which bears nothing there if it is smooth, and without it the body slides, "
+        "as friction and adhesion do not bear as much; expected friction, a load that points to the border, or smaller "
+        "cells",
+        in_quotes(problem.rigid[r].name), across / force);
+  }
+  return "";
+}
+
 /// A driven one, which goes where it is told to go all the same, with another force.
 std::string corner_of_driven(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
   constexpr double noted = 0.01;
@@ -70,7 +90,9 @@ class HookedCorners : public Watcher {
  private:
   static std::string look(RunState& run) {
     if (std::ranges::none_of(run.scene.rigid, &RigidSpec::free)) return "";
-    return fault_of_corners(run.scene, *run.model.phase, run.t, run.motion->u());
+    const LagrangianPhase& phase = *run.model.phase;
+    const std::string fault = fault_of_corners(run.scene, phase, run.t, run.motion->u());
+    return fault.empty() ? fault_across(run.scene, phase, run.t, run.motion->u()) : fault;
   }
 };
 

@@ -53,7 +53,9 @@ struct ContactReport {
   double stretch = 1;  // by which a piece of the border that touches is drawn out, where most, if it is not cut anew
   // At a sharp corner a piece may be pushed along its own border, by the side of the rigid body that it is behind:
   double hooked = 0;      // the pressures there, as a force along the border [N]
-  double shear_left = 0;  // that could bear it in their place [N]
+  double across = 0;      // of a free rigid body that few pieces bear: what these do not bear along the normals of
+                          // their border (force_across.hpp) [N]
+  double shear_left = 0;  // that could bear either in their place [N]
   bool is_gone = false;   // a free rigid body that has found nothing on its way, far beyond all that it may touch
 };
 

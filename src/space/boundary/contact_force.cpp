@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "space/boundary/facet_finder.hpp"
+#include "space/boundary/force_across.hpp"
 #include "space/boundary/small_stiffness.hpp"
 #include "space/boundary/trace_fit.hpp"
 
@@ -402,6 +403,7 @@ ContactReport ContactForce<K, Finder>::report(double t, const double* u) const {
   for (int i = 0; i < N; ++i) report.displacement[static_cast<std::size_t>(i)] = moved[i];
   double slipping = 0;
   Position hooked = Position::Zero();
+  std::vector<PushedPiece<K>> pushed;
   for_closed(placement, u, [&](const Touch& touch) {
     const Position border = TouchFinder<K>::position_of(surface_.piece(touch.piece).deformed_area(u)).normalized();
     const double facing = -touch.at.normal.dot(border);
@@ -410,6 +412,7 @@ ContactReport ContactForce<K, Finder>::report(double t, const double* u) const {
     } else if (shear_.acts()) {
       report.shear_left += touch.area * (shear_.at(touch.p) - touch.tau.norm());
     }
+    if (finder_.is_free()) pushed.push_back({touch.patch, touch.piece, touch.area * touch.p * touch.at.normal});
     const Position f = touch.area * (touch.p * touch.at.normal + touch.tau), arm = touch.x - centre;
     for (int i = 0; i < N; ++i) report.force[static_cast<std::size_t>(i)] += f[i];
     add_moment<N>(arm, f, report.moment);
@@ -421,6 +424,7 @@ ContactReport ContactForce<K, Finder>::report(double t, const double* u) const {
   report.slipping = report.area > 0 ? slipping / report.area : 0;
   if (K == Kinematics::axisymmetric) hooked[0] = 0;  // which cancels around the axis
   report.hooked = hooked.norm();
+  report.across = force_across<K>(surface_, pushed, u);
   report.is_gone = is_gone(t, u);
   return report;
 }
