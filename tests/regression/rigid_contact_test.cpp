@@ -161,6 +161,17 @@ TEST_CASE("Hertz's cylinder and sphere press with their force and pressure, and 
   }
 }
 
+TEST_CASE("a contact that gives way, and whose forces another update would make others, is at no equilibrium") {
+  const Summary s = scenes::run_text(
+      "dim = 2\n[grid]\nmin = [0, 0]\nmax = [4, 1.5]\ncells = [64, 24]\n[body]\nmax = [4, 1.03]\nmaterial = 'm'\n"
+      "placement = 'gauss'\n[material.m]\nlaw = 'linear-elastic'\nE = 1e6\nnu = 0.3\nrho = 1\n"
+      "[[support]]\nface = 'bottom'\n[[rigid]]\nname = 'disc'\ndisc = [1.02, 1.53]\nradius = 0.5\n"
+      "motion = ['0', -0.002]\n[damping]\nstrategy = 'auto'\n[stop]\nresidual = 1e-8\n");
+  CAPTURE(s.reason, s.notes);
+  CHECK((s.status != RunStatus::equilibrium ||
+         std::ranges::none_of(s.notes, [](const auto& note) { return note.starts_with("contact gives way by"); })));
+}
+
 TEST_CASE("the sides of an outline that are shorter than a cell touch a round bar all around") {
   const Summary s = run(load_scene("bar.toml",
                                    around_a_bar("0", "max_motion = 'none'", 1e6) +
