@@ -172,6 +172,38 @@ TEST_CASE("a contact that gives way, and whose forces another update would make 
          std::ranges::none_of(s.notes, [](const auto& note) { return note.starts_with("contact gives way by"); })));
 }
 
+TEST_CASE("the moment of a rigid body that does not turn is about the position that it names, which moves with it") {
+  const auto pressed = [](const char* about) {
+    return scenes::run_text(
+        std::string(
+            "dim = 2\n[grid]\nmin = [0, 0]\nmax = [1, 1.5]\ncells = [4, 6]\n[body]\nmax = [1, 1]\nmaterial = 'm'\n"
+            "[material.m]\nlaw = 'linear-elastic'\nE = 1e6\nnu = 0.3\nrho = 1000\n[[support]]\nface = 'bottom'\n"
+            "[[rigid]]\nname = 'plate'\nmin = [-0.5, 1]\nmax = [1.5, 1.3]\nmotion = ['0', -0.01]\n") +
+        about + "\n[damping]\nstrategy = 'auto'\n");
+  };
+  const Summary s = pressed("about = [0.2, 1]"), of_origin = pressed("");
+  REQUIRE(s.status == RunStatus::equilibrium);
+  const double force = s.contacts.at("plate.force_y");
+  REQUIRE(force < -1000);
+  CHECK(s.contacts.at("plate.moment_z") == Approx(0.3 * force).epsilon(1e-3));  // its middle is at 0.5
+  CHECK(of_origin.contacts.at("plate.moment_z") == Approx(0.5 * force).epsilon(1e-3));
+}
+
+TEST_CASE("a rigid body that presses on what a support holds is told so, and not to take smaller cells") {
+  for (const char* rigid :
+       {"half_plane = [[0.05, 0], [1, 0]]", "half_plane = [[0, 0], [1, 0]]\nmotion = ['0.02*min(t/0.01,1)', 0]"}) {
+    CAPTURE(rigid);
+    const Summary s = scenes::run_text(
+        std::string("dim = 2\n[grid]\nmin = [0, 0]\nmax = [1, 1.5]\ncells = [8, 12]\n[body]\nmax = [1, 1.03]\n"
+                    "material = 'm'\nplacement = 'gauss'\n[material.m]\nlaw = 'linear-elastic'\nE = 1e6\nnu = 0.3\n"
+                    "rho = 1\n[[support]]\nface = 'left'\nname = 'side'\n[[rigid]]\nname = 'plate'\n") +
+        rigid + "\n[damping]\nstrategy = 'auto'\n[stop]\nresidual = 1e-8\n");
+    CAPTURE(s.reason);
+    CHECK(s.status != RunStatus::equilibrium);
+    CHECK_THAT(s.reason, Catch::Contains("'plate' is") && Catch::Contains("that a support holds there, as by 'side'"));
+  }
+}
+
 TEST_CASE("the sides of an outline that are shorter than a cell touch a round bar all around") {
   const Summary s = run(load_scene("bar.toml",
                                    around_a_bar("0", "max_motion = 'none'", 1e6) +

@@ -136,6 +136,16 @@ TEST_CASE("a driven rigid body whose sharp corner drags a border says by how muc
   CHECK_FALSE(says(run_text(dragged_box("rounding = 0.15")), "a sharp corner of"));
 }
 
+TEST_CASE("a half-plane that pushes a block beside the block's own corner is not told to have a sharp corner") {
+  const Summary s = run_text(
+      "dim = 2\n[grid]\nmin = [-0.6, -0.6]\nmax = [1.6, 1.6]\ncells = [22, 22]\n[[body]]\nname = 'block'\n"
+      "min = [0.1, 0.02]\nmax = [0.6, 0.33]\nmaterial = 'm'\nplacement = 'gauss'\n"
+      "[[rigid]]\nname = 'slope'\nhalf_plane = [[0, 0.02], [0, 1]]\nabout = [0, 0.02]\n"
+      "rotation = '0.44*min(t,1)'\nfriction = 0.5\n[body_force]\nvalue = [0, -10]\n[phase]\nmax_motion = 0.1\n" +
+      block_rubber + "[damping]\nstrategy = 'viscous'\nc = 40\n[stop]\nresidual = 1e-6\ntime = 6\n");
+  CHECK_FALSE(says(s, "a sharp corner of"));
+}
+
 TEST_CASE("a block that falls between smooth plates is told soon to be held by nothing along them") {
   check_moves_away(run_text(between_plates("")), "'block'", "y");
   // A floor ahead, however far, and rough plates are something.

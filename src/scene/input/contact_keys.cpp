@@ -55,7 +55,8 @@ void add_shear(Rows<Spec>& rows) {
       .key("rotation", &RigidSpec::rotation,
            "in the plane the angle, counter-clockwise; in space the rotation vector: the axis times the angle",
            {.unit = "rad", .variables = "t", .fallback = "0", .of_turn = true})
-      .key("about", &RigidSpec::about, "position about which it turns, and which its motion moves",
+      .key("about", &RigidSpec::about,
+           "position about which it turns and its moment is taken, and which its motion moves",
            {.unit = "m", .fallback = "the origin"})
       .key("free", &RigidSpec::free,
            "true: not moved by formulas, but to where its weight and its force balance what it touches; it does not "

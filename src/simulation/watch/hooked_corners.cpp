@@ -9,15 +9,19 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "scene/rigid_body.hpp"
 #include "simulation/watcher.hpp"
 
 namespace stillpoint {
 namespace {
 
+/// A half-plane is the same wherever it slides: no place of a border holds it.
+bool is_alike_along_itself(const RigidSpec& rigid) { return !rigid.half_plane.empty(); }
+
 /// A rigid body that is free or driven, and that a corner bears by more than this share of its force where friction
 /// does not; empty: there is none.
 struct Hooked {
-  std::string body;
+  const RigidSpec* rigid;
   double share;  // of its force
 };
 std::optional<Hooked> find_hooked(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u, bool free,
@@ -26,8 +30,9 @@ std::optional<Hooked> find_hooked(const Problem& problem, const LagrangianPhase&
   for (std::size_t r = 0; r < problem.rigid.size(); ++r) {
     const auto& [x, y, z] = reports[r].force;
     const double force = std::hypot(x, y, z), hooked = reports[r].hooked;
-    if (problem.rigid[r].free == free && hooked > std::max(least * force, reports[r].shear_left))
-      return Hooked{in_quotes(problem.rigid[r].name), hooked / force};
+    const bool slides = free && is_alike_along_itself(problem.rigid[r]);
+    if (problem.rigid[r].free == free && !slides && hooked > std::max(least * force, reports[r].shear_left))
+      return Hooked{&problem.rigid[r], hooked / force};
   }
   return {};
 }
@@ -42,7 +47,7 @@ std::string fault_of_corners(const Problem& problem, const LagrangianPhase& phas
       "force on it acts along that border, and without it the body slides, as friction and adhesion do not bear as "
       "much; "
       "expected a rounding of half a cell, or smaller cells",
-      found->body, found->share);
+      in_quotes(found->rigid->name), found->share);
 }
 
 /// A free rigid body that would slide if the border bore what pushes it along its own normals alone. What a border that
@@ -53,7 +58,9 @@ std::string fault_across(const Problem& problem, const LagrangianPhase& phase, d
   for (std::size_t r = 0; r < problem.rigid.size(); ++r) {
     const auto& [x, y, z] = reports[r].force;
     const double force = std::hypot(x, y, z), across = reports[r].across;
-    if (!problem.rigid[r].free || !(across > std::max(little * force, reports[r].shear_left))) continue;
+    if (!problem.rigid[r].free || is_alike_along_itself(problem.rigid[r]) ||
+        !(across > std::max(little * force, reports[r].shear_left)))
+      continue;
     return fmt::format(
         "{} is held in between the few places of a border that feel contact with it: {:.2g} of the force on it acts "
         "across the normals of that border, which bears nothing there if it is smooth, and without it the body slides, "
@@ -69,10 +76,17 @@ std::string corner_of_driven(const Problem& problem, const LagrangianPhase& phas
   constexpr double noted = 0.01;
   const auto found = find_hooked(problem, phase, t, u, /*free=*/false, noted);
   if (!found) return "";
+  const std::string name = in_quotes(found->rigid->name);
+  if (corners_of(*found->rigid).empty())
+    return fmt::format(
+        "{}, which has no corner, pushes places of a border that feel contact along that border, as beside a corner of "
+        "the body that is pressed in or where it is narrower than a cell: {:.2g} of its force, which may be off by as "
+        "much; expected smaller cells there",
+        name, found->share);
   return fmt::format(
       "a sharp corner of {} pushes the places of a border that feel contact along that border, as the border of the "
       "material would not be: {:.2g} of its force; expected a rounding of half a cell, or smaller cells",
-      found->body, found->share);
+      name, found->share);
 }
 
 class HookedCorners : public Watcher {

@@ -17,6 +17,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "simulation/watcher.hpp"
 
 namespace stillpoint {
@@ -68,8 +69,8 @@ class Multipliers : public Watcher {
     verdict = {RunStatus::step_limit,
                fmt::format("no equilibrium: after {} updates of its multipliers contact still gives way by {:.2g} "
                            "cells on average where most, and another would change the forces on the body by {:.2g} %; "
-                           "expected smaller cells; it ended with {}",
-                           updates_, state.misfit, 100 * state.change, verdict.reason)};
+                           "{}; it ended with {}",
+                           updates_, state.misfit, 100 * state.change, remedy(run), verdict.reason)};
   }
 
   void fill_state(Summary& summary, RunState& run) override {
@@ -101,6 +102,20 @@ class Multipliers : public Watcher {
   static constexpr long fewest = 2, most = 200;  // updates
   static constexpr long stride = 8;              // [steps] between two looks at the residual of a motion
 
+  // What supports hold does not get out of the way, whatever the cells.
+  static std::string remedy(RunState& run) {
+    for (const ContactReport& contact : run.model.phase->supports().contacts(run.t, run.motion->u())) {
+      if (!(contact.held > largest_misfit)) continue;
+      std::string names;
+      for (const SupportSpec& support : run.scene.supports)
+        if (!support.name.empty()) names += (names.empty() ? ", as by " : " or ") + in_quotes(support.name);
+      return fmt::format(
+          "{} is {:.2g} cells deep in a border that a support holds there{}, and that cannot get out of its way; "
+          "expected one of the two to be elsewhere",
+          in_quotes(contact.name), contact.held, names);
+    }
+    return "expected smaller cells";
+  }
   // Within a phase a piece keeps the facet that was opposite to it.
   static void note_slides(Summary& summary, RunState& run) {
     if (run.scene.phase.ends()) return;

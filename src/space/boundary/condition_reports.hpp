@@ -47,6 +47,7 @@ struct ContactReport {
   std::array<double, 3> displacement{};  // of a free rigid body, since the run began [m]
   double area = 0;                       // where it touches [m²]
   double penetration = 0;                // the largest [cells]
+  double held = 0;                       // the same where supports hold the border against it
   double slipping = 0;                   // share of that area which slips
   double slid = 0;                       // how far bodies have moved along each other in the phase, where most [cells]
   double turned = 0;   // by how much a piece that touches has turned on what it touches in the phase, where most [rad]

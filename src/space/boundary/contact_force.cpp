@@ -419,7 +419,11 @@ ContactReport ContactForce<K, Finder>::report(double t, const double* u) const {
     report.area += touch.area;
     if (touch.tau.norm() >= (1 - rounding) * shear_.at(touch.p)) slipping += touch.area;
     report.stretch = std::max(report.stretch, surface_.stretch(touch.piece));
-    report.penetration = std::max(report.penetration, -touch.at.distance / surface_.patches()[touch.patch].cell);
+    const double cells = -touch.at.distance / surface_.patches()[touch.patch].cell;
+    report.penetration = std::max(report.penetration, cells);
+    double gives = 0;  // what is free along n
+    surface_.for_free(touch.piece, [&](int i, int, double w) { gives += std::abs(w * touch.at.normal[i]); });
+    if (gives < rounding) report.held = std::max(report.held, cells);
   });
   report.slipping = report.area > 0 ? slipping / report.area : 0;
   if (K == Kinematics::axisymmetric) hooked[0] = 0;  // which cancels around the axis
