@@ -66,6 +66,25 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "a rigid body that jumps right through a bridge ends the run, which says so, and one that jumps beside it does "
+    "not") {
+  const auto jumps = [](double x) {
+    return run_text(
+        fmt::format("dim = 2\n[grid]\nmin = [0, 0]\nmax = [2, 1.5]\ncells = [16, 12]\n[[body]]\nname = "
+                    "'bridge'\nmin = [0, 0.5]\nmax = [1, 0.63]\nmaterial = 'm'\nplacement = 'gauss'\n"
+                    "[[support]]\nface = 'left'\n[[rigid]]\nname = 'ram'\nmin = [{}, 0.7]\nmax = [{}, 0.9]\n"
+                    "motion = [0, '-0.6*min(max(1e7*(t-0.001),0),1)']\n",
+                    x, x + 0.4) +
+        pad_rubber + to_rest);
+  };
+  const Summary through = jumps(0.3);
+  CAPTURE(through.reason);
+  CHECK(through.status == RunStatus::failed);
+  CHECK_THAT(through.reason, Contains("'ram' has gone right through 'bridge'"));
+  CHECK(jumps(1.3).status == RunStatus::equilibrium);
+}
+
 TEST_CASE("a disc that is pressed far into rubber ends with one force, however fast it comes") {
   std::vector<double> forces;
   for (const char* T : {"constants.T=1", "constants.T=10"}) {

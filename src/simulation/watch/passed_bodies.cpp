@@ -2,10 +2,12 @@
 // were opposite when the phase began: bodies that turn to each other only later in the same phase meet nothing, and a
 // run would end at rest with both in one place. So their borders are compared where they are at the end, and the volume
 // of the bodies that can move apart is summed in blocks of the grid, where it must fit. A rigid body presses on the
-// border of a body alone: once past it, it would rest in the middle of the body, which bears nothing.
+// border of a body alone: once past it, it would rest in the middle of the body, which bears nothing. One that jumps on
+// to the other side from one step to the next leaves no trace at the end: its way is looked along in each such step.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <vector>
@@ -138,6 +140,11 @@ std::string described(const Problem& problem, const Intrusion& found) {
         more_phases(problem));
   }
   const std::string body = name_of_body(problem, found.other);
+  if (found.of == Intrusion::Of::way)
+    return fmt::format(
+        "{} has gone right through {} from one step to the next: on its way a material point at ({:.4g}) lay {:.2g} "
+        "cells inside it, and only a border feels contact; expected a slower motion, without a jump",
+        rigid(found.rigid), body, fmt::join(found.at, ", "), found.cells);
   if (found.of == Intrusion::Of::surface)
     return fmt::format(
         "{} has gone in between the places of the border of {} that feel contact: its surface at ({:.4g}) lies {:.2g} "
@@ -172,6 +179,14 @@ std::string fault_of_turn(const LagrangianPhase& phase, double t, ConstVec u) {
 
 class PassedBodies : public Watcher {
  public:
+  void observe(RunState& run) override {
+    if (run.scene.rigid.empty() || !passed_.empty()) return;
+    if (run.t > looked_at_)
+      for (const Intrusion& passage : run.model.phase->supports().passages(looked_at_, run.t, run.motion->u()))
+        passed_ = described(run.scene, passage);
+    looked_at_ = run.t;
+  }
+  Verdict judge(RunState& run) override { return passed_.empty() ? Verdict{} : run.failed(passed_); }
   void confirm(RunState& run, Verdict& verdict) override {
     const Findings found = look(run);
     if (!found.faults.empty())
@@ -183,6 +198,8 @@ class PassedBodies : public Watcher {
     for (const std::string& fault : found.faults) add_note(summary, fault);
     for (const std::string& note : found.notes) add_note(summary, note);
   }
+
+  void archive(const StateArchive& state, RunState&) override { state("looked_at", looked_at_); }
 
  private:
   struct Findings {
@@ -203,6 +220,9 @@ class PassedBodies : public Watcher {
     }
     return found;
   }
+
+  double looked_at_ = std::numeric_limits<double>::infinity();  // the time of the last look [s]
+  std::string passed_;                                          // what a rigid body has gone through; empty: nothing
 };
 
 }  // namespace

@@ -62,10 +62,10 @@ struct ContactReport {
 
 /// What lies in a rigid body without being felt, where it lies deepest.
 struct Intrusion {
-  enum class Of { points, border, surface, rigid, bodies };
-  Of of =
-      Of::points;  // of material points; of the border beside the pieces that feel contact, where these bear
-                   // nothing; of the surface of the rigid body in the body; of a rigid body; or of bodies in each other
+  enum class Of { points, border, surface, rigid, bodies, way };
+  Of of = Of::points;  // of material points; of the border beside the pieces that feel contact, where these bear
+                       // nothing; of the surface of the rigid body in the body; of a rigid body; of bodies in each
+                       // other; or of material points on the way of the rigid body
   std::size_t rigid = 0, other = 0;  // numbers in the scene, of the rigid body and of the body or rigid body in it; of
                                      // bodies in each other, of their contact
   double cells = 0;                  // the depth [cells]

@@ -198,6 +198,11 @@ std::vector<Intrusion> Conditions<K>::intrusions(const Parts& phase, double t, c
 }
 
 template <Kinematics K>
+std::vector<Intrusion> Conditions<K>::passages(const Parts& phase, double before, double t, const double* u) const {
+  return rigid_contact_->empty() ? std::vector<Intrusion>() : rigid_contact_->passages(phase, before, t, u);
+}
+
+template <Kinematics K>
 RigidFaces<K> Conditions<K>::faces_of_rigid_bodies(double t, const double* u) const {
   return rigid_contact_->faces(t, u);
 }

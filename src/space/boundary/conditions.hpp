@@ -124,6 +124,7 @@ class Conditions {
   std::vector<ContactReport> contacts(double t, const double* u) const;
   ContactState contact_state(const Parts& phase, double t, const double* u) const;
   std::vector<Intrusion> intrusions(const Parts& phase, double t, const double* u) const;
+  std::vector<Intrusion> passages(const Parts& phase, double before, double t, const double* u) const;
   bool is_ahead(std::size_t body, const Point<dim>& direction, double t, const double* u) const;
   bool are_driven() const { return load_control_.acts(); }
   LoadState load_state(double t, const double* u) const { return load_control_.state(t, u); }

@@ -61,6 +61,9 @@ class RigidContact {
   void add_reports(double t, const double* u, std::vector<ContactReport>& to) const;
   /// What lies in rigid bodies at (t, u), at most one place of a kind for each.
   std::vector<Intrusion> intrusions(const Parts& phase, double t, const double* u) const;
+  /// What rigid bodies have gone right through since a time before: material points that lie deeper in them on the
+  /// straight way between their places than at its ends. Only of those that went more than half a cell.
+  std::vector<Intrusion> passages(const Parts& phase, double before, double t, const double* u) const;
   /// The faces of the rigid bodies at (t, u), at the end of a phase.
   RigidFaces<K> faces(double t, const double* u) const;
   /// Whether a rigid body that is not free is ahead of a body that goes on along a unit vector from (t, u), by the rays

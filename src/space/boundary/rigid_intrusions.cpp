@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
+#include <utility>
+
+#include <Eigen/Geometry>
 
 #include "scene/rigid_body.hpp"
 #include "space/boundary/facet_search.hpp"
@@ -28,6 +32,18 @@ void visit_surface(const TouchFinder<K>& finder, const Placement& placement, con
   visit_surface(finder, placement, second_from, to, cell, visit);
 }
 
+/// A share of the way from one place of a body to another.
+template <int N>
+RigidPlacement<N> on_the_way(const RigidPlacement<N>& from, const RigidPlacement<N>& to, double share) {
+  using Turn = std::conditional_t<N == 2, Eigen::Rotation2Dd, Eigen::AngleAxisd>;
+  Turn turn(Eigen::Matrix<double, N, N>(to.Q * from.Q.transpose()));
+  turn.angle() *= share;
+  RigidPlacement<N> placement = from;
+  placement.u += share * (to.u - from.u);
+  placement.Q = turn.toRotationMatrix() * from.Q;
+  return placement;
+}
+
 }  // namespace
 
 template <Kinematics K>
@@ -51,6 +67,35 @@ std::vector<Intrusion> RigidContact<K>::intrusions(const Parts& phase, double t,
       if (bodies_[r].finder().is_free() || bodies_[other].finder().is_free())
         take(deepest_overlap(r, other, placements, phase.grid));
     }
+  }
+  return found;
+}
+
+// The bodies are where u has them at the end: a dent that has closed again behind a rigid body lies on its way, and is
+// shallow.
+template <Kinematics K>
+std::vector<Intrusion> RigidContact<K>::passages(const Parts& phase, double before, double t, const double* u) const {
+  constexpr double jump = 0.5, apart = 0.125, deeper = 0.25;  // [cells]
+  constexpr double most = 2000;                               // looks on the way
+  std::vector<Intrusion> found;
+  if (surface_.empty()) return found;
+  const double cell = std::ranges::min_element(surface_.patches(), {}, &SurfacePatch::cell)->cell;
+  for (std::size_t r = 0; r < bodies_.size(); ++r) {
+    const TouchFinder<K>& finder = bodies_[r].finder();
+    if (finder.is_free()) continue;
+    const RigidPlacement<N> from = finder.placement(before), to = finder.placement(t);
+    const double way = (to.u - from.u).norm() + surface_.extent() * (to.Q - from.Q).norm();
+    if (!(way > jump * cell)) continue;
+    const double at_ends = std::max(deepest_point(r, from, phase, u).cells, deepest_point(r, to, phase, u).cells);
+    const int looks = static_cast<int>(std::min(most, std::ceil(way / (apart * cell))));
+    Intrusion deepest;
+    for (int look = 1; look < looks; ++look) {
+      Intrusion here = deepest_point(r, on_the_way(from, to, look * (1.0 / looks)), phase, u);
+      if (here.cells > deepest.cells) deepest = std::move(here);
+    }
+    if (!(deepest.cells > at_ends + deeper)) continue;
+    deepest.of = Intrusion::Of::way;
+    found.push_back(std::move(deepest));
   }
   return found;
 }
@@ -203,5 +248,14 @@ template std::vector<Intrusion> RigidContact<Kinematics::plane>::intrusions(cons
 template std::vector<Intrusion> RigidContact<Kinematics::axisymmetric>::intrusions(const Parts&, double,
                                                                                    const double*) const;
 template std::vector<Intrusion> RigidContact<Kinematics::space>::intrusions(const Parts&, double, const double*) const;
+
+template std::vector<Intrusion> RigidContact<Kinematics::line>::passages(const Parts&, double, double,
+                                                                         const double*) const;
+template std::vector<Intrusion> RigidContact<Kinematics::plane>::passages(const Parts&, double, double,
+                                                                          const double*) const;
+template std::vector<Intrusion> RigidContact<Kinematics::axisymmetric>::passages(const Parts&, double, double,
+                                                                                 const double*) const;
+template std::vector<Intrusion> RigidContact<Kinematics::space>::passages(const Parts&, double, double,
+                                                                          const double*) const;
 
 }  // namespace stillpoint

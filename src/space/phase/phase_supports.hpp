@@ -42,6 +42,10 @@ class PhaseSupportsOf final : public PhaseSupports {
     if (!all_.conditions.may_touch()) return {};
     return all_.conditions.intrusions(all_.inertia.parts(), t, spread(t, u)->u.data());
   }
+  std::vector<Intrusion> passages(double before, double t, ConstVec u) const override {
+    if (!all_.conditions.may_touch()) return {};
+    return all_.conditions.passages(all_.inertia.parts(), before, t, spread(t, u)->u.data());
+  }
   bool is_rigid_body_ahead(std::size_t body, ConstVec direction, double t, ConstVec u) const override {
     if (!all_.conditions.may_touch()) return false;
     Point<dimensions(K)> along;
