@@ -133,6 +133,8 @@ void Simulation::Impl::give_up(const StepReport& report) {
   if (may_go_on) return next_phase();
   const std::string load = load_without_value(run_->scene, *run_->model.phase, run_->t, report.h);
   verdict_ = run_->failed(load.empty() ? report.message : load + "; expected a finite number at any time");
+  if (run_->model.static_method && load.empty())
+    for (const Watched& watched : watchers_) watched.watcher->explain(*run_, verdict_);
   if (report.status != StepReport::Status::failed) verdict_.status = RunStatus::diverged;
   record(true);
 }

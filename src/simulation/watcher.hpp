@@ -30,8 +30,8 @@ class Watcher {
   /// When the next phase has begun: whether the run is over.
   virtual Verdict begin_phase(RunState&) { return {}; }
 
-  /// After a limit has ended the run before it was at rest, or a point was lost (status failed): adds to the reason
-  /// what still moves.
+  /// After a limit has ended the run before it was at rest, or a point was lost, or a static solver has given up
+  /// (status failed): adds to the reason what still moves, or what may be done.
   virtual void explain(RunState&, Verdict&) {}
   /// While the run claims equilibrium at its end: adds a doubt to the reason, or takes the claim back.
   virtual void confirm(RunState&, Verdict&) {}

@@ -164,6 +164,20 @@ TEST_CASE("bodies that nothing holds are told by static solvers as well") {
   }
 }
 
+TEST_CASE("a static solver that finds no rest of a block that friction holds names the relaxation, which finds one") {
+  const std::string pushed =
+      "dim = 2\n[grid]\nmin = [0, 0]\nmax = [2, 1.5]\ncells = [16, 12]\n[[body]]\nname = 'block'\n"
+      "min = [0.5, 0.53]\nmax = [1.5, 0.83]\nmaterial = 'm'\nplacement = 'gauss'\n"
+      "[material.m]\nlaw = 'linear-elastic'\nE = 1e6\nnu = 0.3\nrho = 1\n"
+      "[[rigid]]\nname = 'floor'\nhalf_plane = [[0, 0.53], [0, 1]]\nfriction = 0.3\n"
+      "[[traction]]\nline = [[0.5, 0.83], [1.5, 0.83]]\nvalue = [20, -1000]\n[stop]\nresidual = 1e-7\n";
+  const Summary by_newton = run_text(pushed + "[solve]\nmethod = 'newton'\n");
+  CAPTURE(by_newton.reason);
+  CHECK((by_newton.status == RunStatus::equilibrium ||
+         by_newton.reason.find("solve.method = \"relaxation\"") != std::string::npos));
+  CHECK(run_text(pushed + "[damping]\nstrategy = 'auto'\n").status == RunStatus::equilibrium);
+}
+
 TEST_CASE("a block that its load lifts off a base moves away, and one that falls on it comes to rest") {
   check_moves_away(run_text(above_base, {"constants.g=10"}), "'block'", "y");
   CHECK(run_text(above_base).status == RunStatus::equilibrium);

@@ -73,6 +73,15 @@ class Multipliers : public Watcher {
                            updates_, state.misfit, 100 * state.change, remedy(run), verdict.reason)};
   }
 
+  // Near a rest that friction keeps, places stick, slip and open in turn: a full step changes which, and its forces
+  // jump by as much as they are out of balance. A share of the load is no easier, as its pressures are that share.
+  void explain(RunState& run, Verdict& verdict) override {
+    if (!touches_ || !run.scene.rubs() || !run.scene.solve.is_static() || verdict.status != RunStatus::failed) return;
+    verdict.reason +=
+        "; where contact has friction a static solver may find no rest though there is one, which "
+        "solve.method = \"relaxation\" finds";
+  }
+
   void fill_state(Summary& summary, RunState& run) override {
     constexpr double negligible = 1e-2;  // of the forces
     if (!touches_) return;
