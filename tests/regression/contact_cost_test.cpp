@@ -53,19 +53,37 @@ Summary press(const Pressed& by, const std::vector<std::string>& settings = {}) 
   return run_text(block + "[[rigid]]\nname = 'punch'\n" + by.rigid + "\n", settings);
 }
 
+Summary load(const Pressed& by, const std::vector<std::string>& settings = {}) {
+  return run_text(block + "[[traction]]\nface = 'top'\nvalue = ['0', '" + by.traction + "']\n", settings);
+}
+
 }  // namespace
 
-TEST_CASE("a body is pressed by a smooth rigid one in no more than 2.7 times the evaluations of the same traction") {
-  // 1.2, 1.7, 2.3 and 2.2; with an update at each tenth of the residual 1.1, 1.6, 5.4 and 4.5. Where the corner of a
-  // footing presses, patches open and close on the way.
+TEST_CASE("a body is pressed by a smooth rigid one in no more than 2.2 times the evaluations of the same traction") {
+  // 1.3, 1.3, 1.3 and 1.9. Beside the corner of a footing multipliers of cells instead of functions take 2.3 and 2.2,
+  // by updates at each tenth of the residual 5.4 and 4.5.
   for (const Pressed& by : pressed) {
     CAPTURE(by.name);
     const Summary touched = press(by);
-    const Summary loaded = run_text(block + "[[traction]]\nface = 'top'\nvalue = ['0', '" + by.traction + "']\n");
+    const Summary loaded = load(by);
     REQUIRE(touched.status == RunStatus::equilibrium);
     REQUIRE(loaded.status == RunStatus::equilibrium);
     CHECK(touched.rhs_evaluations > loaded.rhs_evaluations / 2);
-    CHECK(touched.rhs_evaluations <= 27 * loaded.rhs_evaluations / 10);
+    CHECK(touched.rhs_evaluations <= 22 * loaded.rhs_evaluations / 10);
+  }
+}
+
+TEST_CASE("a motion with critical damping is pressed in no more than 3.2 times the evaluations of the same traction") {
+  // 2.7, 2.4, 2.5 and 2.9; 2.8, 3.3, 5.8 and 6.9 by multipliers of cells. Of these 0.6 are the period for which balance
+  // has to last where a body is not linear.
+  for (const Pressed& by : pressed) {
+    CAPTURE(by.name);
+    const Summary touched = press(by, {"damping.strategy=viscous"});
+    const Summary loaded = load(by, {"damping.strategy=viscous"});
+    REQUIRE(touched.status == RunStatus::equilibrium);
+    REQUIRE(loaded.status == RunStatus::equilibrium);
+    CHECK(touched.rhs_evaluations > loaded.rhs_evaluations);
+    CHECK(touched.rhs_evaluations <= 32 * loaded.rhs_evaluations / 10);
   }
 }
 
@@ -75,8 +93,8 @@ TEST_CASE("a smooth rigid body presses with the same force whether a body comes 
     const double by_descent = press(by).contacts.at("punch.force_y");
     const Summary moved = press(by, {"damping.strategy=viscous"});
     CHECK(moved.status == RunStatus::equilibrium);
-    // 1e-5 to 4e-5: multipliers at the corners come to an end at different states
-    CHECK(by_descent == Approx(moved.contacts.at("punch.force_y")).epsilon(1e-4));
+    // 1e-6 to 1e-5; 4e-5 by multipliers of cells
+    CHECK(by_descent == Approx(moved.contacts.at("punch.force_y")).epsilon(2e-5));
     CHECK(by_descent < -1e-3);
   }
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
@@ -61,7 +62,7 @@ class OverlapCheck {
     if (check_.scene().dim != 2) {
       for (std::size_t axis = 0; axis < a.min.size(); ++axis)
         if (std::min(a.max[axis], b.max[axis]) - std::max(a.min[axis], b.min[axis]) <= pressed) return "";
-      return (a.is_box() && b.is_box()) || solids_meet(a, b) ? "a part" : "";
+      return (a.is_box() && b.is_box()) || solids_meet(a, b, pressed) ? "a part" : "";
     }
     const Polygon of_a = outline_of(a), of_b = outline_of(b);
     // Borders that should be one may lie apart, or over each other, by rounding all along.
@@ -70,16 +71,17 @@ class OverlapCheck {
     return area > of_rounding ? fmt::format("an area of {:.4g} m2", area) : "";
   }
 
-  /// True if a position of a lattice in the box that a and b have in common lies in both. The lattice has an odd number
-  /// of positions along each axis, so that one lies in the middle.
-  bool solids_meet(const BodySpec& a, const BodySpec& b) const {
+  /// True if a position of a lattice in the box that a and b have in common lies in both, and by more than half of
+  /// `pressed` in one. The lattice has an odd number of positions along each axis, so that one lies in the middle.
+  bool solids_meet(const BodySpec& a, const BodySpec& b, double pressed) const {
     constexpr int n = 21;
+    const double slack = std::max(rounding_, std::numbers::sqrt3 * pressed / 2);  // in the direction of any border
     const SpaceBox common = in_common(box_of(a), box_of(b));
     for (int k = 0; k < n * n * n; ++k) {
       std::vector<double> x(3);
       for (std::size_t d = 0, number = static_cast<std::size_t>(k); d < 3; ++d, number /= n)
         x[d] = common.low[d] + (common.high[d] - common.low[d]) * (static_cast<double>(number % n) + 0.5) / n;
-      if (is_inside(a, x) && is_inside(b, x)) return true;
+      if (is_inside(a, x, slack) && is_inside(b, x, slack)) return true;
     }
     return false;
   }
@@ -95,7 +97,7 @@ class OverlapCheck {
     const BodySpec& shape = positions_a.empty() ? a : b;
     const auto& positions = positions_a.empty() ? positions_b : positions_a;
     for (const std::vector<double>& x : positions)
-      if (is_inside(shape, x)) return point_at(x);
+      if (is_inside(shape, x, rounding_)) return point_at(x);
     return "";
   }
 
@@ -103,23 +105,23 @@ class OverlapCheck {
     return fmt::format("the point at {:.6g}", fmt::join(x, ", "));
   }
 
-  /// True if x lies inside by more than rounding.
-  bool is_inside(const BodySpec& shape, const std::vector<double>& x) const {
+  /// True if x lies inside by more than the slack [m].
+  bool is_inside(const BodySpec& shape, const std::vector<double>& x, double slack) const {
     for (std::size_t axis = 0; axis < x.size(); ++axis)
-      if (x[axis] <= shape.min[axis] + rounding_ || x[axis] >= shape.max[axis] - rounding_) return false;
+      if (x[axis] <= shape.min[axis] + slack || x[axis] >= shape.max[axis] - slack) return false;
     if (shape.is_box()) return true;
-    if (x.size() == 3) return is_inside_solid(shape, {x[0], x[1], x[2]});
+    if (x.size() == 3) return is_inside_solid(shape, {x[0], x[1], x[2]}, slack);
     const Polygon outline = outline_of(shape);
-    return contains(outline, {x[0], x[1]}) && distance_to_border(outline, {x[0], x[1]}) > rounding_;
+    return contains(outline, {x[0], x[1]}) && distance_to_border(outline, {x[0], x[1]}) > slack;
   }
 
-  /// True if x and its neighbours along each axis, at the distance of rounding, lie inside.
-  bool is_inside_solid(const BodySpec& shape, const SpacePoint& x) const {
+  /// True if x and its neighbours along each axis, at the distance of the slack, lie inside.
+  bool is_inside_solid(const BodySpec& shape, const SpacePoint& x, double slack) const {
     std::shared_ptr<const Solid>& solid = solids_[&shape];
     if (!solid) solid = solid_of(shape);
     if (!solid->contains(x)) return false;
     for (std::size_t d = 0; d < 3; ++d) {
-      for (const double aside : {-rounding_, rounding_}) {
+      for (const double aside : {-slack, slack}) {
         SpacePoint next = x;
         next[d] += aside;
         if (!solid->contains(next)) return false;

@@ -4,13 +4,14 @@
 // Taken too early, in the first overshoot of the motion, they would be those of another state; and each time they
 // change, the body is out of balance again, by what it will have to go on. So they are taken first at a residual of
 // 1e-2, and then each time that half of what the last update put out of balance is left: body and pressures come to
-// their places together. They are taken at least twice, until what the grid's functions can tell of a penetration is
-// less than a thousandth of a cell, and until another update would change what the body feels of them by no more than
-// thirty times the residual that the scene asks for. At the edge of a contact a piece may open and close from one
-// update to the next; once they come no nearer, there are no more. Under loads that still change they follow once in a
-// while, and after a longer while even if the body is not near balance: in a motion that is never quiet the penalty
-// alone would press else, and give way. There is no end to those, and they are taken evenly: what swings at the moment
-// of an update is not to stay as a pressure.
+// their places together. With friction, which remembers each state on the way, they are taken at a tenth of the last
+// residual, down to the one that the scene asks for. They are taken at least twice, until what the grid's functions can
+// tell of a penetration is less than a thousandth of a cell, and until another update would change what the body feels
+// of them by no more than thirty times the residual that the scene asks for. At the edge of a contact a piece may open
+// and close from one update to the next; once they come no nearer, there are no more. Under loads that still change
+// they follow once in a while, and after a longer while even if the body is not near balance: in a motion that is never
+// quiet the penalty alone would press else, and give way. There is no end to those, and they are taken evenly: what
+// swings at the moment of an update is not to stay as a pressure.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,6 +28,7 @@ class Multipliers : public Watcher {
  public:
   explicit Multipliers(RunState& run)
       : touches_(run.model.phase->info().may_touch),
+        remembers_(run.scene.rubs()),
         least_(run.scene.stop.residual > 0 ? run.scene.stop.residual : least_by_default),
         largest_change_(std::clamp(30 * least_, 1e-9, 1e-3)),
         between_(run.model.dwell / 4),
@@ -54,9 +56,9 @@ class Multipliers : public Watcher {
     if (!loads_stay) return;
     ++updates_;
     since_nearest_ += std::clamp(std::log10(unbalanced_ / residual), 0.0, 2.0);
-    if (state.change < nearer * least_change_) least_change_ = state.change, since_nearest_ = 0;
+    if (state.change < nearer() * least_change_) least_change_ = state.change, since_nearest_ = 0;
     unbalanced_ = run.motion->known_residual(run.t);
-    goal_ = std::max(half * unbalanced_, least_ / 10);
+    goal_ = remembers_ ? std::max(goal_ / 10, least_) : std::max(half * unbalanced_, least_ / 10);
   }
 
   // Takes an equilibrium back whose contact penetrates, as its multipliers come to no end: by much, or by a little
@@ -68,7 +70,7 @@ class Multipliers : public Watcher {
     if (state.misfit <= (state.change > other ? largest_misfit : much)) return;
     verdict = {RunStatus::step_limit,
                fmt::format("no equilibrium: after {} updates of its multipliers contact still gives way by {:.2g} "
-                           "cells on average where most, and another would change the forces on the body by {:.2g} %; "
+                           "cells where most, and another would change the forces on the body by {:.2g} %; "
                            "{}; it ended with {}",
                            updates_, state.misfit, 100 * state.change, remedy(run), verdict.reason)};
   }
@@ -92,11 +94,10 @@ class Multipliers : public Watcher {
       add_note(summary, "a free rigid body is not in balance: nothing that it touches bears all of the force on it");
     note_slides(summary, run);
     if (state.misfit <= largest_misfit && state.change <= negligible) return;
-    add_note(
-        summary,
-        fmt::format("contact gives way by {:.2g} cells on average where most, and its forces on the body may be off by "
-                    "{:.2g} %: its multipliers are those of an earlier state",
-                    state.misfit, 100 * state.change));
+    add_note(summary,
+             fmt::format("contact gives way by {:.2g} cells where most, and its forces on the body may be off by "
+                         "{:.2g} %: its multipliers are those of an earlier state",
+                         state.misfit, 100 * state.change));
   }
 
   void archive(const StateArchive& state, RunState& run) override {
@@ -107,7 +108,6 @@ class Multipliers : public Watcher {
  private:
   static constexpr double first = 1e-2, least_by_default = 1e-6, largest_misfit = 1e-3;
   static constexpr double half = 0.5;
-  static constexpr double nearer = 0.7;          // of the least change so far, for one that counts as nearer
   static constexpr long fewest = 2, most = 200;  // updates
   static constexpr long stride = 8;              // [steps] between two looks at the residual of a motion
 
@@ -144,6 +144,8 @@ class Multipliers : public Watcher {
                              "pass between its points; expected smaller cells, or more points in a cell",
                              contact.name, contact.stretch));
   }
+  // The share of the least change so far that a nearer one stays below: with friction each update waits for longer.
+  double nearer() const { return remembers_ ? half : 0.7; }
   bool is_small(const ContactState& state) const {
     return state.misfit <= largest_misfit && state.change <= largest_change_;
   }
@@ -160,12 +162,12 @@ class Multipliers : public Watcher {
     return run.t >= last_ + patience * between_ || run.motion->known_residual(run.t) <= first;
   }
 
-  bool touches_;
-  double least_;           // the smallest residual to wait for
-  double largest_change_;  // that another update would make, as a share of the forces of contact
-  double between_;         // the time between updates under changing loads [s]
-  double goal_;            // the residual to wait for
-  double last_ = 0;        // when the last update was [s]
+  bool touches_, remembers_;  // remembers_: with friction
+  double least_;              // the smallest residual to wait for
+  double largest_change_;     // that another update would make, as a share of the forces of contact
+  double between_;            // the time between updates under changing loads [s]
+  double goal_;               // the residual to wait for
+  double last_ = 0;           // when the last update was [s]
   // Under loads that stay:
   double least_change_ = std::numeric_limits<double>::infinity();  // that an update has made
   double since_nearest_ = 0;  // the updates since then, each by the decades of its way to balance, at most two

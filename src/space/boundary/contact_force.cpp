@@ -326,7 +326,7 @@ void ContactForce<K, Finder>::update_multipliers(double t, const double* u, bool
   if (evenly) {
     change_evenly(touches, std::move(borne));
   } else {
-    take(touches, TraceFit(surface_, pieces)(borne));
+    take(touches, TraceFit(surface_.pieces(), pieces)(borne));
   }
   for (const Touch& touch : touches)
     if (touch.slips && remembers()) drag(placement, touch);
@@ -340,7 +340,7 @@ void ContactForce<K, Finder>::add_fit(double t, const double* u, ContactFit& fit
   Eigen::MatrixXd fitted(touches.size(), 2);  // g, p
   Eigen::Index row = 0;
   for (const Touch& touch : touches) fitted.row(row++) << touch.at.distance, touch.p;
-  fitted = TraceFit(surface_, pieces)(fitted);
+  fitted = TraceFit(surface_.pieces(), pieces)(fitted);
   const auto feel = [&](const Touch& touch, double p, std::vector<double>& unknowns) {
     Point<dim> f;
     for (std::size_t i = 0; i < dim; ++i) f[i] = touch.area * p * touch.at.normal[static_cast<Eigen::Index>(i)];

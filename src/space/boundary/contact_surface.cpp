@@ -11,7 +11,7 @@ namespace stillpoint {
 namespace {
 
 bool is_on_smooth_way_to_rest(const Problem& problem) {
-  return problem.stop.wants_equilibrium() && !problem.rubs() && !problem.solve.is_static();
+  return problem.stop.wants_equilibrium() && !loads_vary(problem) && !problem.rubs() && !problem.solve.is_static();
 }
 
 }  // namespace

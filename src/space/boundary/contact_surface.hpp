@@ -50,6 +50,7 @@ class ContactSurface {
   /// by their places in that list.
   const std::vector<int>& functions() const { return functions_; }
   const std::vector<int>& functions_of_patches() const { return of_patches_; }
+  std::span<const BorderPiece<K>> pieces() const { return pieces_; }
   const BorderPiece<K>& piece(std::size_t s) const { return pieces_[s]; }
   /// The patches around each of them, in the present phase.
   const PatchNeighbours& neighbours() const { return neighbours_; }

@@ -1,55 +1,84 @@
 #include "space/boundary/trace_fit.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <ranges>
 #include <unordered_map>
 
+#include <Eigen/Geometry>
 #include <Eigen/IterativeLinearSolvers>
 
 namespace stillpoint {
 namespace {
 
-/// Σ A w² of each function over these pieces.
+template <Kinematics K>
+using Border = std::span<const BorderPiece<K>>;
+
+/// The side of a body that a piece is on, by the one of these directions to which its normal is nearest. They lie
+/// between the directions that faces of bodies have as a rule, lest rounding sorts the pieces of one face.
+template <Kinematics K>
+int side_of(const BorderPiece<K>& piece) {
+  constexpr int dim = dimensions(K);
+  static const Eigen::Matrix3d axes =
+      (Eigen::AngleAxisd(0.31, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(0.17, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (int d = 0; d < dim; ++d) normal[d] = piece.vector[static_cast<std::size_t>(d)];
+  const Eigen::Vector3d along = axes * normal;
+  Eigen::Index nearest = 0;
+  along.cwiseAbs().maxCoeff(&nearest);
+  return 2 * static_cast<int>(nearest) + (along[nearest] > 0 ? 1 : 0);
+}
+
+/// Calls visit(key, w) for the functions of a piece, with a key for each function on each side.
+template <Kinematics K, class Visit>
+void for_functions(const BorderPiece<K>& piece, const Visit& visit) {
+  constexpr int sides = 6;
+  const int side = side_of(piece);
+  for (const auto& a : piece.at.entries)
+    if (a.function >= 0 && a.w != 0) visit(sides * static_cast<std::int64_t>(a.function) + side, a.w);
+}
+
+using OfFunctions = std::unordered_map<std::int64_t, double>;
+
+/// Σ A w² over these pieces.
 template <Kinematics K, class Pieces>
-std::unordered_map<int, double> squares(const ContactSurface<K>& surface, const Pieces& pieces) {
-  std::unordered_map<int, double> sums;
+OfFunctions squares(Border<K> border, const Pieces& pieces) {
+  OfFunctions sums;
   for (const std::size_t s : pieces)
-    for (const auto& a : surface.piece(s).at.entries)
-      if (a.function >= 0 && a.w != 0) sums[a.function] += surface.area(s) * a.w * a.w;
+    for_functions(border[s], [&](std::int64_t key, double w) { sums[key] += border[s].size() * w * w; });
   return sums;
 }
 
-/// By functions, the share of the border they reach that is in these pieces.
+/// The share of the border that a function reaches which is in these pieces.
 template <Kinematics K>
-std::unordered_map<int, double> shares(const ContactSurface<K>& surface, const std::vector<std::size_t>& pieces) {
-  std::unordered_map<int, double> shares = squares(surface, pieces);
-  const auto all = squares(surface, std::views::iota(std::size_t{0}, surface.size()));
-  for (auto& [function, share] : shares) share /= all.at(function);
+OfFunctions shares(Border<K> border, const std::vector<std::size_t>& pieces) {
+  OfFunctions shares = squares<K>(border, pieces);
+  const OfFunctions all = squares<K>(border, std::views::iota(std::size_t{0}, border.size()));
+  for (auto& [key, share] : shares) share /= all.at(key);
   return shares;
 }
 
 }  // namespace
 
 template <Kinematics K>
-TraceFit::TraceFit(const ContactSurface<K>& surface, const std::vector<std::size_t>& pieces)
+TraceFit::TraceFit(std::span<const BorderPiece<K>> border, const std::vector<std::size_t>& pieces)
     : area_(static_cast<Eigen::Index>(pieces.size())) {
   constexpr double sliver = 0.2;  // of the largest share of the functions at a piece
-  const std::unordered_map<int, double> share = shares(surface, pieces);
-  std::unordered_map<int, int> column;
+  const OfFunctions share = shares<K>(border, pieces);
+  std::unordered_map<std::int64_t, int> column;
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const BorderPiece<K>& piece = border[pieces[k]];
     const auto row = static_cast<int>(k);
-    area_[row] = surface.area(pieces[k]);
+    area_[row] = piece.size();
     double most = 0, sum = 0;
-    const auto for_functions = [&](const auto& visit) {
-      for (const auto& a : surface.piece(pieces[k]).at.entries)
-        if (a.function >= 0 && a.w != 0 && share.at(a.function) >= sliver * most) visit(a);
-    };
-    for_functions([&](const auto& a) { most = std::max(most, share.at(a.function)); });
-    for_functions([&](const auto& a) { sum += a.w; });
-    for_functions([&](const auto& a) {
+    for_functions(piece, [&](std::int64_t key, double) { most = std::max(most, share.at(key)); });
+    const auto counts = [&](std::int64_t key) { return share.at(key) >= sliver * most; };
+    for_functions(piece, [&](std::int64_t key, double w) { sum += counts(key) ? w : 0; });
+    for_functions(piece, [&](std::int64_t key, double w) {
       const auto next = static_cast<int>(column.size());
-      entries.emplace_back(row, column.try_emplace(a.function, next).first->second, a.w / sum);
+      if (counts(key)) entries.emplace_back(row, column.try_emplace(key, next).first->second, w / sum);
     });
   }
   weights_.resize(area_.size(), static_cast<Eigen::Index>(column.size()));
@@ -67,9 +96,9 @@ Eigen::MatrixXd TraceFit::operator()(const Eigen::MatrixXd& borne) const {
   return weights_ * Eigen::MatrixXd(solver.solve(right));
 }
 
-template TraceFit::TraceFit(const ContactSurface<Kinematics::line>&, const std::vector<std::size_t>&);
-template TraceFit::TraceFit(const ContactSurface<Kinematics::plane>&, const std::vector<std::size_t>&);
-template TraceFit::TraceFit(const ContactSurface<Kinematics::axisymmetric>&, const std::vector<std::size_t>&);
-template TraceFit::TraceFit(const ContactSurface<Kinematics::space>&, const std::vector<std::size_t>&);
+template TraceFit::TraceFit(std::span<const BorderPiece<Kinematics::line>>, const std::vector<std::size_t>&);
+template TraceFit::TraceFit(std::span<const BorderPiece<Kinematics::plane>>, const std::vector<std::size_t>&);
+template TraceFit::TraceFit(std::span<const BorderPiece<Kinematics::axisymmetric>>, const std::vector<std::size_t>&);
+template TraceFit::TraceFit(std::span<const BorderPiece<Kinematics::space>>, const std::vector<std::size_t>&);
 
 }  // namespace stillpoint

@@ -7,24 +7,26 @@
 // goes to and fro from cell to cell, as the means over cells hardly tell the motions that do. What is in the functions'
 // own space is felt, all of it [a mortar method with multipliers of the order of the displacement: Puso and Laursen
 // 2004]. At the end of what touches a function may reach a sliver of it alone: its value would hardly be felt, and is
-// left to those beside it.
+// left to those beside it. On two sides of a corner a
+// function has a value for each: pressures jump there.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <Eigen/SparseCore>
 
-#include "space/boundary/contact_surface.hpp"
+#include "space/boundary/border_piece.hpp"
 
 namespace stillpoint {
 
 class TraceFit {
  public:
-  /// pieces: those that touch.
+  /// pieces: the numbers of those of the border that touch, in a phase.
   template <Kinematics K>
-  TraceFit(const ContactSurface<K>& surface, const std::vector<std::size_t>& pieces);
+  TraceFit(std::span<const BorderPiece<K>> border, const std::vector<std::size_t>& pieces);
 
-  /// borne: by these pieces, (pieces × components), and so is what is returned.
+  /// borne: by the pieces that touch, (pieces × components), and so is what is returned.
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& borne) const;
 
  private:

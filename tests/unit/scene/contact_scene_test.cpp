@@ -97,4 +97,24 @@ TEST_CASE("bodies that touch may overlap a little when the run begins, others ma
   CHECK_THAT(complaints(text_of(contact, 0.8)), Contains("two bodies cannot be in the same place"));
 }
 
+TEST_CASE("in space tubes of a shrink fit may overlap a little whether they are whole or a quarter of one") {
+  const auto tubes = [](double from, double interference) {
+    return complaints(
+        fmt::format("dim = 3\ngrid = {{min = [{0}, {0}, 0], max = [1.2, 1.2, 0.2], cells = [12, 12, 1]}}\n"
+                    "[material.m]\nlaw = 'linear-elastic'\nE = 1\nnu = 0.3\nrho = 1\n[damping]\nc = 1\n"
+                    "[[contact]]\nbodies = ['in', 'out']\n"
+                    "[[body]]\nname = 'in'\nmin = [{0}, {0}, 0]\nmax = [1.2, 1.2, 0.2]\nmaterial = 'm'\n"
+                    "cylinder = [[0, 0, 0], [0, 0, 0.2]]\nradius = {1}\ninner_radius = 0.35\n"
+                    "[[body]]\nname = 'out'\nmin = [{0}, {0}, 0]\nmax = [1.2, 1.2, 0.2]\nmaterial = 'm'\n"
+                    "cylinder = [[0, 0, 0], [0, 0, 0.2]]\nradius = 1.1\ninner_radius = 0.7\n",
+                    from, 0.7 + interference));
+  };
+  for (const double from : {0.0, -1.2}) {
+    CAPTURE(from);
+    CHECK(tubes(from, 0.002).empty());
+    CHECK(tubes(from, 0.02).empty());
+    CHECK_THAT(tubes(from, 0.3), Contains("two bodies cannot be in the same place"));
+  }
+}
+
 }  // namespace stillpoint::test
