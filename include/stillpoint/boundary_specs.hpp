@@ -43,11 +43,14 @@ struct WallSpec {  // [[wall]]: a rigid wall along a face of the grid, which pus
 };
 
 struct PointForceSpec {           // [[force]]
+  std::string name{};             // by which stages begin and end it; empty: it is there all the time
   std::vector<double> at;         // point of application [m]
   std::vector<Expression> value;  // components of the force, formulas of t [N]
+  std::size_t number = 0;         // which force of the problem it is, in all its stages
 };
 
 struct TractionSpec {                          // [[traction]]: a load on the border of a body
+  std::string name{};                          // by which stages begin and end it; empty: it is there all the time
   std::optional<Face> face;                    // the loaded face of the only body, which is a box
   std::vector<double> from = {}, to = {};      // in space, the loaded part of the face, along its axes [m]; empty: to
                                                // its ends
@@ -57,6 +60,7 @@ struct TractionSpec {                          // [[traction]]: a load on the bo
   std::vector<Expression> value;       // traction per undeformed area [Pa]; it keeps its direction
   std::optional<Expression> pressure;  // pressure per deformed area [Pa], instead of value: it follows the face's
                                        // normal
+  std::size_t number = 0;              // which traction of the problem it is, in all its stages
 
   /// The components of value, or the pressure alone.
   std::span<const Expression> formulas() const { return pressure ? std::span(&*pressure, 1) : std::span(value); }
@@ -64,7 +68,8 @@ struct TractionSpec {                          // [[traction]]: a load on the bo
 
 struct LoadSpec {               // [load]: proportional loads, scaled so as to reach a prescribed displacement
   Expression displacement;      // mean displacement of the loads, Σ F·u/Σ |F| [m], a formula of t
-  std::vector<std::string> of;  // the loads scaled: "traction[0]", "force[1]", "body_force"; empty: all
+  std::vector<std::string> of;  // the loads scaled: "traction[0]", "force[1]", "body_force", by their
+                                // numbers in all stages; empty: all
   double at = 0;                // when the stage begins with which they do; before, they do not act [s]
 };
 

@@ -213,7 +213,7 @@ struct StageSpec {  // [[stage]]: what changes at a time of the run
   /// When the stage begins, at the earliest [s].
   double at = 0;
   std::vector<std::string> add, remove;       // the names of bodies, also rigid ones, that appear, and of those that go
-  std::vector<std::string> hold, release;     // the names of supports that begin and end
+  std::vector<std::string> hold, release;     // the names of supports and loads that begin and end
   std::vector<std::string> change, material;  // the names of bodies, and of the material that each has from now on
   /// A formula of x, y, z: bodies that appear bear the weight of what appears above them, σ_yy, with σ_xx = σ_zz = K0
   /// σ_yy; empty: they appear without stress.
@@ -264,15 +264,17 @@ struct Problem : BoundarySpecs {
   std::filesystem::path initial_from;    // a checkpoint of another scene whose points the bodies take over; empty: none
   bool displacements_from_zero = false;  // whether their displacements count from there
   // Stages. The members above are what there is in the present one.
-  std::vector<StageSpec> stages;             // those that follow, in time
-  std::vector<BodySpec> later_bodies;        // that they add
-  std::vector<SupportSpec> later_supports;   // that they begin to hold
-  std::vector<RigidSpec> later_rigid;        // that they add
-  std::optional<LoadSpec> later_load;        // that begins with one of them
-  std::vector<std::string> named_supports;   // the names of those of all stages, as written
-  std::vector<std::string> named_bodies;     // likewise
-  std::vector<RigidSpec> rigid_as_written;   // those of all stages
-  std::optional<StageSpec> present_stage{};  // what the present stage is; empty: the beginning of the run
+  std::vector<StageSpec> stages;              // those that follow, in time
+  std::vector<BodySpec> later_bodies;         // that they add
+  std::vector<SupportSpec> later_supports;    // that they begin to hold
+  std::vector<RigidSpec> later_rigid;         // that they add
+  std::vector<PointForceSpec> later_forces;   // that begin with them
+  std::vector<TractionSpec> later_tractions;  // likewise
+  std::optional<LoadSpec> later_load;         // that begins with one of them
+  std::vector<std::string> named_supports;    // the names of those of all stages, as written
+  std::vector<std::string> named_bodies;      // likewise
+  std::vector<RigidSpec> rigid_as_written;    // those of all stages
+  std::optional<StageSpec> present_stage{};   // what the present stage is; empty: the beginning of the run
   ExactSpec exact;
   SolveSpec solve;
   DampingSpec damping;

@@ -13,10 +13,10 @@ Problem with_loads(const Problem& problem, const Keeps& keeps) {
   Problem chosen = problem;
   chosen.tractions.clear();
   chosen.forces.clear();
-  for (std::size_t k = 0; k < problem.tractions.size(); ++k)
-    if (keeps(fmt::format("traction[{}]", k))) chosen.tractions.push_back(problem.tractions[k]);
-  for (std::size_t k = 0; k < problem.forces.size(); ++k)
-    if (keeps(fmt::format("force[{}]", k))) chosen.forces.push_back(problem.forces[k]);
+  for (const TractionSpec& traction : problem.tractions)
+    if (keeps(name_of_load(traction))) chosen.tractions.push_back(traction);
+  for (const PointForceSpec& force : problem.forces)
+    if (keeps(name_of_load(force))) chosen.forces.push_back(force);
   if (!keeps("body_force")) {
     chosen.body_force.clear();
     chosen.own_load.clear();
@@ -24,18 +24,23 @@ Problem with_loads(const Problem& problem, const Keeps& keeps) {
   return chosen;
 }
 
+}  // namespace
+
+std::string name_of_load(const TractionSpec& traction) { return fmt::format("traction[{}]", traction.number); }
+std::string name_of_load(const PointForceSpec& force) { return fmt::format("force[{}]", force.number); }
+
 // Also by a [load] that begins with a later stage: before, what it drives does not act.
 bool is_driven(const Problem& problem, const std::string& name) {
-  const std::vector<std::string>& driven = (problem.load ? problem.load : problem.later_load)->of;
-  return driven.empty() || std::ranges::find(driven, name) != driven.end();
+  const std::optional<LoadSpec>& load = problem.load ? problem.load : problem.later_load;
+  return load && (load->of.empty() || std::ranges::find(load->of, name) != load->of.end());
 }
-
-}  // namespace
 
 std::vector<std::string> names_of_loads(const Problem& problem) {
   std::vector<std::string> names;
-  for (std::size_t k = 0; k < problem.tractions.size(); ++k) names.push_back(fmt::format("traction[{}]", k));
-  for (std::size_t k = 0; k < problem.forces.size(); ++k) names.push_back(fmt::format("force[{}]", k));
+  for (const auto* tractions : {&problem.tractions, &problem.later_tractions})
+    for (const TractionSpec& traction : *tractions) names.push_back(name_of_load(traction));
+  for (const auto* forces : {&problem.forces, &problem.later_forces})
+    for (const PointForceSpec& force : *forces) names.push_back(name_of_load(force));
   if (problem.has_body_force()) names.emplace_back("body_force");
   return names;
 }

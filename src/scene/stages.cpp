@@ -82,6 +82,10 @@ constexpr const char* support = "support";
 constexpr const char* later_support = "later_support";
 constexpr const char* rigid = "rigid";
 constexpr const char* later_rigid = "later_rigid";
+constexpr const char* force = "force";
+constexpr const char* later_force = "later_force";
+constexpr const char* traction = "traction";
+constexpr const char* later_traction = "later_traction";
 
 template <class Part>
 void number(std::vector<Part>& parts) {
@@ -95,6 +99,8 @@ void set_later_parts_aside(Problem& problem, Locations& where) {
   number(problem.bodies);
   number(problem.supports);
   number(problem.rigid);
+  number(problem.forces);
+  number(problem.tractions);
   problem.phase.at_stages = !problem.stages.empty() || !problem.initial_from.empty();
   if (!problem.phase.at_stages) return;
   problem.named_supports = names_of(problem.supports);
@@ -112,6 +118,8 @@ void set_later_parts_aside(Problem& problem, Locations& where) {
   move_parts(problem.bodies, body, problem.later_bodies, later_body, where, comes(added));
   move_parts(problem.supports, support, problem.later_supports, later_support, where, comes(held));
   move_parts(problem.rigid, rigid, problem.later_rigid, later_rigid, where, comes(added));
+  move_parts(problem.forces, force, problem.later_forces, later_force, where, comes(held));
+  move_parts(problem.tractions, traction, problem.later_tractions, later_traction, where, comes(held));
   if (problem.load && problem.load->at > 0) problem.load.swap(problem.later_load);
   if (problem.stages.front().at > 0) return;
   problem.present_stage = problem.stages.front();  // which changes nothing
@@ -154,12 +162,16 @@ void begin_next_stage(Scene& scene) {
   drop_parts(scene.bodies, body, scene.where, stage.remove);
   drop_parts(scene.supports, support, scene.where, stage.release);
   drop_parts(scene.rigid, rigid, scene.where, stage.remove);
+  drop_parts(scene.forces, force, scene.where, stage.release);
+  drop_parts(scene.tractions, traction, scene.where, stage.release);
   const auto comes = [](const Names& names) {
     return [&names](const auto& part) { return is_among(names, part.name); };
   };
   move_parts(scene.later_bodies, later_body, scene.bodies, body, scene.where, comes(stage.add));
   move_parts(scene.later_supports, later_support, scene.supports, support, scene.where, comes(stage.hold));
   move_parts(scene.later_rigid, later_rigid, scene.rigid, rigid, scene.where, comes(stage.add));
+  move_parts(scene.later_forces, later_force, scene.forces, force, scene.where, comes(stage.hold));
+  move_parts(scene.later_tractions, later_traction, scene.tractions, traction, scene.where, comes(stage.hold));
   if (scene.later_load && scene.later_load->at <= stage.at) scene.load.swap(scene.later_load);
   for (std::size_t k = 0; k < std::min(stage.change.size(), stage.material.size()); ++k) {
     const auto changed = std::ranges::find(scene.bodies, stage.change[k], &BodySpec::name);

@@ -12,9 +12,9 @@ namespace stillpoint {
 /// Locations of keys in a scene file, as in Scene::where; the keys of what stands aside begin with "later_".
 using Locations = std::map<std::string, Location>;
 
-/// Numbers the bodies, rigid bodies and supports of a problem as it was written, and sets aside those that stages add
-/// or hold, and a load that begins with one. Only numbers them without stages; does nothing if that was done before. A
-/// stage from t = 0 on becomes the present one. where: follows these numbers.
+/// Numbers the bodies, rigid bodies, supports and loads of a problem as it was written, and sets aside those that
+/// stages add or hold, and a [load] that begins with one. Only numbers them without stages; does nothing if that was
+/// done before. A stage from t = 0 on becomes the present one. where: follows these numbers.
 void set_later_parts_aside(Problem& problem, Locations& where);
 
 /// When the present stage ends, at the earliest; 0: the run has one stage and no end [s].

@@ -1,4 +1,4 @@
-// Stages: bodies that are placed and dug away, supports that begin and end, materials that change.
+// Stages: bodies that are placed and dug away, supports and loads that begin and end, materials that change.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -47,6 +47,32 @@ Scene cut(const std::string& stage, const std::vector<std::string>& overrides = 
             "{name='above', min=[0, '3*h'], max=['h', '4*h'], material='fill'}]",
             "stage=[" + stage + "]", "probe=[{name='below', at=['h/2', '3*h'], fields=['u.y', 'stress.yy']}]"},
            overrides));
+}
+
+/// A column of two lifts of 3 m, on whose top a surcharge of 1e5 Pa stands from a stage on, and until another one.
+/// static_solver: by solve.method = "newton", or at rest in time.
+Scene surcharged(bool begins, bool ends, bool static_solver, const std::vector<std::string>& overrides = {}) {
+  const std::string wait = static_solver ? "}" : ", ramp=0.2, equilibrium=true}";
+  std::string stages = "{at=1, add=['above']" + wait;
+  if (!static_solver) stages = "{at=0, equilibrium=true}, " + stages;
+  if (begins) stages += ", {at=2, hold=['surcharge']" + wait;
+  if (ends) stages += ", {at=3, release=['surcharge']" + wait;
+  std::vector<std::string> set = {
+      "body=[{name='below', max=['h', '3*h'], material='fill', state='plane-strain'}, {name='above', min=[0, '3*h'], "
+      "max=['h', '6*h'], material='fill'}]",
+      "support=[{name='floor', face='bottom'}, {face='left', kind='roller'}, {face='right', kind='roller'}]",
+      "stage=[" + stages + "]", "stop.residual=1e-8",
+      "probe=[{name='middle', at=['h/2', '3*h'], fields=['u.y']}, {name='top', at=['h/2', '6*h'], fields=['u.y']}]"};
+  if (begins) set.push_back("traction=[{name='surcharge', line=[[0, '6*h'], ['h', '6*h']], value=[0, -1e5]}]");
+  if (!static_solver) set = with(set, waiting);
+  return scenes::load("ladder/lifts", with(set, overrides));
+}
+
+/// The work that has been done on a body when its run ends [J].
+double external_work(const Scene& scene) {
+  const Summary s = run(scene);
+  CHECK(s.status == RunStatus::equilibrium);
+  return s.external_work.value();
 }
 
 /// A slope of one point a cell, in which a point's mean over its cell is its own: so phase.dilatation changes nothing.
@@ -209,6 +235,68 @@ TEST_CASE("a support that is released hands its load on, and one that begins to 
     CHECK(scenes::probe(held, "top", "u.y") == Approx(-1.8e-3 * 36 / 2).epsilon(1e-3));
     CHECK(std::abs(held.reactions.at("prop").at(1)) < 1e-3 * 1800 * 10 * 6);  // it holds a body at rest
   }
+}
+
+TEST_CASE("a surcharge that a stage places on a lift of a stage before adds p H/M to what the lifts have settled by") {
+  for (const bool static_solver : {true, false}) {
+    CAPTURE(static_solver);
+    const Summary s = run(surcharged(true, false, static_solver));
+    CHECK(s.status == RunStatus::equilibrium);
+    CHECK(scenes::probe(s, "middle", "u.y") == Approx(settlement_of_lift(1, 2) - 1e5 * 3 / 1e7).epsilon(1e-3));
+    CHECK(scenes::probe(s, "top", "u.y") == Approx(settlement_of_lift(2, 2) - 1e5 * 6 / 1e7).epsilon(1e-3));
+    CHECK(s.reactions.at("floor").at(1) == Approx(6 * 18e3 + 1e5).epsilon(1e-4));
+  }
+  // A border that has moved before the load begins; strains are up to 2 %, of which this is first order.
+  const Summary moved = run(surcharged(true, false, true, {"material.fill.law=hencky"}));
+  CHECK(moved.status == RunStatus::equilibrium);
+  CHECK(scenes::probe(moved, "top", "u.y") == Approx(settlement_of_lift(2, 2) - 1e5 * 6 / 1e7).epsilon(0.04));
+}
+
+TEST_CASE("a load that a stage takes away again leaves an elastic body as if it had never been there") {
+  for (const bool static_solver : {true, false}) {
+    CAPTURE(static_solver);
+    const Summary s = run(surcharged(true, true, static_solver));
+    CHECK(s.status == RunStatus::equilibrium);
+    CHECK(scenes::probe(s, "middle", "u.y") == Approx(settlement_of_lift(1, 2)).epsilon(1e-3));
+    CHECK(scenes::probe(s, "top", "u.y") == Approx(settlement_of_lift(2, 2)).epsilon(1e-3));
+    CHECK(s.reactions.at("floor").at(1) == Approx(6 * 18e3).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("a load that begins and ends with stages does the work of its coming on, and takes it back") {
+  const double without = external_work(surcharged(false, false, true));
+  // The weight goes down by p y/M, and the surcharge by p H/M as it comes on from nothing.
+  const double of_weight = 18e3 * 36 / 2 * 1e5 / 1e7, of_surcharge = 1e5 * (1e5 * 6 / 1e7) / 2;
+  CHECK(external_work(surcharged(true, false, true)) - without == Approx(of_weight + of_surcharge).epsilon(1e-3));
+  CHECK(external_work(surcharged(true, true, true)) == Approx(without).epsilon(1e-3));
+}
+
+TEST_CASE("a load comes on over the ramp of its stage, and goes over that of the stage that ends it") {
+  const auto furthest = [](const std::string& ramp, bool ends) {
+    double least = 0, most = -1;
+    SimulationOptions options;
+    options.at_row = [&](const std::vector<std::string>& columns, const std::vector<double>& row) {
+      const auto column = std::ranges::find(columns, "top.u.y");
+      const double u = row[static_cast<std::size_t>(column - columns.begin())];
+      if (row[0] >= (ends ? 11 : 1)) least = std::min(least, u), most = std::max(most, u);
+    };
+    const std::string load = "hold=['surcharge'], ramp=" + ramp, unload = "release=['surcharge'], ramp=" + ramp;
+    const Scene scene = scenes::load(
+        "ladder/lifts",
+        with(waiting, {"body=[{name='ground', max=['h', '6*h'], material='fill', state='plane-strain'}]",
+                       "body_force.value=[0, 0]", "damping.strategy=viscous", "damping.c=10", "output.every=0.01",
+                       "traction=[{name='surcharge', line=[[0, '6*h'], ['h', '6*h']], value=[0, -1e5]}]",
+                       "probe=[{name='top', at=['h/2', '6*h'], fields=['u.y']}]",
+                       ends ? "stage=[{at=1, " + load + "}, {at=11, " + unload + "}]" : "stage=[{at=1, " + load + "}]",
+                       "stop.residual=0", ends ? "stop.time=21" : "stop.time=11"}));
+    run(scene, options);
+    return ends ? most : least;
+  };
+  constexpr double settled = -1e5 * 6 / 1e7;
+  CHECK(furthest("5", false) > 1.01 * settled);
+  CHECK(furthest("0", false) < 1.1 * settled);
+  CHECK(furthest("5", true) < -0.01 * settled);
+  CHECK(furthest("0", true) > -0.1 * settled);
 }
 
 TEST_CASE("springs hold on from stage to stage what they held, also a body of small strain, which stays in place") {

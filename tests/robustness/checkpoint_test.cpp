@@ -113,6 +113,26 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
                   700);
 }
 
+TEST_CASE(
+    "a run that is broken off and resumed has the bits of the unbroken one in stages that loads begin and end with") {
+  for (const char* law : {"law=linear-elastic", "law=hencky", "law=drucker-prager"}) {
+    const std::vector<std::string> set = {
+        std::string("material.fill.") + law,
+        "solve.method=relaxation",
+        "damping.strategy=cundall",
+        "stop.time=1.2",
+        "output.every=0.05",
+        "body=[{name='a', max=['h', '2*h'], material='fill', state='plane-strain'}, {name='b', min=[0, '2*h'], "
+        "max=['h', '3*h'], material='fill'}]",
+        "traction=[{name='surcharge', line=[[0, '3*h'], ['h', '3*h']], value=[0, -1e4]}]",
+        "force=[{name='pile', at=['h/2', '3*h'], value=[0, -100]}, {at=['h/2', 'h'], value=[0, -200]}]",
+        "stage=[{at=0.2, add=['b']}, {at=0.5, hold=['surcharge', 'pile']}, {at=0.8, release=['surcharge']}]",
+        "support=[{face='bottom', name='floor'}, {face='left', kind='roller'}, {face='right', kind='roller'}]",
+        "probe=[{name='ground', at=['h/2', '2*h'], fields=['u.y', 'stress.yy']}]"};
+    for (const long steps : {60L, 150L, 200L, 300L}) check_same_bits({"ladder/lifts", set}, steps);
+  }
+}
+
 TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one in stages with contact") {
   for (const char* law : {"law=linear-elastic", "law=hencky", "law=drucker-prager"}) {
     const std::vector<std::string> set = {

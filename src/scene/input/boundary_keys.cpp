@@ -40,10 +40,14 @@ namespace stillpoint {
   add_contact(tables);
 
   tables.add({"force", "a force at a position of the material, with which it moves", Repeat::array}, &Scene::forces)
+      .key("name", &PointForceSpec::name, "by which a [[stage]] begins (hold) and ends (release) it",
+           {.fallback = "it acts all the time"})
       .key("at", &PointForceSpec::at, "position", {.unit = "m", .required = true})
       .key("value", &PointForceSpec::value, "components", {.unit = "N", .variables = "t", .required = true});
 
   tables.add({"traction", "a load on the border of a body, with which it moves", Repeat::array}, &Scene::tractions)
+      .key("name", &TractionSpec::name, "by which a [[stage]] begins (hold) and ends (release) it",
+           {.fallback = "it acts all the time"})
       .key("face", &TractionSpec::face, "of the body, if it is the only one and a box; or line, or surface",
            {.words = faces})
       .key("line", &TractionSpec::line,

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "scene/controlled_loads.hpp"
 #include "scene/input/scene_check.hpp"
 #include "scene/stages.hpp"
 
@@ -24,7 +25,7 @@ std::vector<std::string> named(const std::vector<Part>& present, const std::vect
   return names;
 }
 
-/// The names of the bodies, rigid bodies or supports that there are at a time, as one stage follows another.
+/// The names of the bodies, rigid bodies, supports or loads that there are at a time, as one stage follows another.
 class Presence {
  public:
   template <class Part>
@@ -47,6 +48,7 @@ class Presence {
     check_one(key, names, k, not_there, [&](const std::string& name) { return now_.contains(name); });
   }
   bool none_is_left() const { return now_.empty(); }
+  const std::vector<std::string>& all() const { return all_; }
   bool knows(const std::string& name) const { return std::ranges::find(all_, name) != all_.end(); }
 
  private:
@@ -107,6 +109,72 @@ class BodyPresence {
 
   SceneCheck& check_;
   Presence bodies_, rigid_;
+};
+
+/// The supports and the loads that there are, which begin and end by the same keys.
+class HeldPresence {
+ public:
+  explicit HeldPresence(SceneCheck& check)
+      : check_(check),
+        supports_(check, "support", check.scene().supports, check.scene().later_supports),
+        tractions_(check, "load", check.scene().tractions, check.scene().later_tractions),
+        forces_(check, "load", check.scene().forces, check.scene().later_forces) {}
+
+  void end(const std::string& key, const std::vector<std::string>& names) {
+    check_one_by_one(key, names, &Presence::end);
+  }
+  void begin(const std::string& key, const std::vector<std::string>& names) {
+    check_one_by_one(key, names, &Presence::begin);
+  }
+  bool is_support(const std::string& name) const { return supports_.knows(name); }
+
+ private:
+  void check_one_by_one(const std::string& key, const std::vector<std::string>& names,
+                        void (Presence::*check)(const std::string&, const std::vector<std::string>&, std::size_t)) {
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const std::string one = fmt::format("{}[{}]", key, k);
+      Presence* const known = that_knows(names[k]);
+      if (!known) {
+        refuse_unknown(one, names[k]);
+      } else if (!check_.wrong_if(drives(names[k]), one,
+                                  "load {} is one of those that [load] drives, which begin together, by load.at; "
+                                  "expected load.of without it",
+                                  in_quotes(names[k]))) {
+        (known->*check)(key, names, k);
+      }
+    }
+  }
+  Presence* that_knows(const std::string& name) {
+    for (Presence* const one : {&supports_, &tractions_, &forces_})
+      if (one->knows(name)) return one;
+    return nullptr;
+  }
+  void refuse_unknown(const std::string& key, const std::string& name) {
+    const Scene& scene = check_.scene();
+    const bool is_body = std::ranges::count(scene.named_bodies, name) > 0,
+               is_rigid =
+                   std::ranges::find(scene.rigid_as_written, name, &RigidSpec::name) != scene.rigid_as_written.end();
+    if (check_.wrong_if(!name.empty() && (is_body || is_rigid), key,
+                        "{} is a {}, which add and remove name; here stand names of supports and loads",
+                        in_quotes(name), is_body ? "body" : "rigid body"))
+      return;
+    std::vector<std::string> names;
+    for (const Presence* const one : {&supports_, &tractions_, &forces_})
+      names.insert(names.end(), one->all().begin(), one->all().end());
+    check_.add_unknown(key, "support or load", "[[support]], [[traction]] or [[force]] with a name", name, names);
+  }
+  /// Whether [load] drives a load of this name.
+  bool drives(const std::string& name) const {
+    const Scene& scene = check_.scene();
+    const auto any = [&](const auto& loads) {
+      return std::ranges::any_of(
+          loads, [&](const auto& load) { return load.name == name && is_driven(scene, name_of_load(load)); });
+    };
+    return any(scene.tractions) || any(scene.later_tractions) || any(scene.forces) || any(scene.later_forces);
+  }
+
+  SceneCheck& check_;
+  Presence supports_, tractions_, forces_;
 };
 
 /// A law without history knows no stress but that of its deformation, which another material did not have.
@@ -184,7 +252,11 @@ void check_company_of_stages(SceneCheck& check) {
     check.wrong_if(scene.probes[k].point.has_value(), fmt::format("probe[{}].point", k),
                    "points have other numbers in other stages; take at");
   const auto springs = [&](const SupportSpec& support) { return holds_by_springs(scene.grid, support); };
-  const auto changes = [](const StageSpec& stage) { return !stage.hold.empty() || !stage.release.empty(); };
+  const HeldPresence held(check);
+  const auto changes = [&](const StageSpec& stage) {
+    const auto is_support = [&](const std::string& name) { return held.is_support(name); };
+    return std::ranges::any_of(stage.hold, is_support) || std::ranges::any_of(stage.release, is_support);
+  };
   check.wrong_if(
       !scene.grid.cells.empty() && std::ranges::any_of(scene.stages, changes) &&
           (std::ranges::any_of(scene.supports, springs) || std::ranges::any_of(scene.later_supports, springs)),
@@ -226,7 +298,7 @@ void check_stages(SceneCheck& check) {
   if (!scene.phase.at_stages) return;
   check_company_of_stages(check);
   BodyPresence bodies(check);
-  Presence supports(check, "support", scene.supports, scene.later_supports);
+  HeldPresence held(check);
   const std::size_t offset = scene.present_stage ? 1 : 0;
   double before = 0;
   const auto check_wait = [&](const StageSpec& stage, const std::string& key) {
@@ -253,8 +325,8 @@ void check_stages(SceneCheck& check) {
     if (check.wrong_if(bodies.no_body_is_left(), key + ".remove", "no body is left then")) return;
     bodies.expect(key + ".change", stage.change);
     check_changed_once(check, stage, key);
-    for (std::size_t one = 0; one < stage.release.size(); ++one) supports.end(key + ".release", stage.release, one);
-    for (std::size_t one = 0; one < stage.hold.size(); ++one) supports.begin(key + ".hold", stage.hold, one);
+    held.end(key + ".release", stage.release);
+    held.begin(key + ".hold", stage.hold);
     check_new_materials(check, stage, key);
     check_new_bodies(check, stage, key);
     const bool is_last = k + 1 == scene.stages.size();

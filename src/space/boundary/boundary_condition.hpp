@@ -161,7 +161,11 @@ class BoundaryCondition {
   /// Called when the phase ends with u.
   virtual void end_phase(const double* /*u*/) {}
 
-  /// Called before the first phase of a run that begins with the points of another one.
+  /// Called before the first phase of a later stage: restores what archive() saved at the end of the stage before, of
+  /// as much as goes on.
+  virtual void take_over(const StateArchive& state) { archive(state); }
+  /// Called after that, or before the first phase of a run that begins with the points of another one: moves what
+  /// begins now to where its material is.
   virtual void leave_placed(const WaysSincePlaced<Dim>&) {}
 
   /// Saves or restores what the condition remembers of earlier phases and steps; a restoration calls it twice, before

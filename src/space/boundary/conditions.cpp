@@ -265,11 +265,17 @@ template <Kinematics K>
 void Conditions<K>::take_over(const SavedState& from_stage) {
   const auto state = StateArchive::restoring(from_stage);
   for (const auto& condition : all_)
-    if (state.has_part(condition->kind())) condition->archive(state.part(condition->kind()));
+    if (state.has_part(condition->kind())) condition->take_over(state.part(condition->kind()));
   weak_supports_.archive(state.part("weak_supports"));
   if (state.has_part("load")) load_control_.archive(state.part("load"));
   rigid_contact_->take_over(state.part("rigid"));
   body_contact_->take_over(state.part("bodies"));
+}
+
+template <Kinematics K>
+void Conditions<K>::place_new_loads(const CarriedBodyOf<K>& carried, const Grid<dim>& grid) {
+  const auto ways = ways_since_placed<K>(problem_, carried, grid);
+  for (const auto& condition : all_) condition->leave_placed(*ways);
 }
 
 template <Kinematics K>

@@ -105,6 +105,8 @@ class Conditions {
   // --- from stage to stage --------------------------------------------------------------------------
   /// Before the first phase: takes over what the conditions of the stage before remember, as archive() saved it.
   void take_over(const SavedState& from_stage);
+  /// Moves the loads that begin with a stage to where the borders of bodies are that have moved before.
+  void place_new_loads(const CarriedBodyOf<K>& carried, const Grid<dim>& grid);
   /// Moves the borders of bodies that are loaded or may be touched to where another run has left them.
   void leave_placed(const CarriedBodyOf<K>& carried, const Grid<dim>& grid);
   /// Balances the force that a stage puts out of balance, F − R at its begin, (n) [N], and lets that fade until the

@@ -15,6 +15,7 @@
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/boundary_condition.hpp"
 #include "space/boundary/carried_point.hpp"
+#include "space/boundary/loads_before.hpp"
 
 namespace stillpoint {
 
@@ -57,6 +58,15 @@ class PointForces final : public BoundaryCondition<Dim> {
   void archive(const StateArchive& state) override {
     state.each(
         "force_positions", at_, [](auto& at) -> auto& { return at.x; });
+    if (problem_.phase.at_stages) LoadsBefore::archive_numbers(state, numbers_of_forces());
+  }
+  // Forces that have ended are left out, and those that begin act where the scene says.
+  void take_over(const StateArchive& state) override {
+    const LoadsBefore before(state, numbers_of_forces());
+    std::vector<double> x;
+    state("force_positions", x);
+    for (std::size_t f = 0; f < at_.size(); ++f)
+      if (const auto place = before.place_of(f)) before.copy_to(at_[f].x, x, *place);
   }
   void end_phase(const double* u) override {
     for (auto& at : at_) at.move(u);
@@ -71,6 +81,12 @@ class PointForces final : public BoundaryCondition<Dim> {
   static void add(const Varying& load, double t, Vec F) {
     const double force = (*load.value)({}, t);
     for (const auto& [dof, weight] : load.weights) F[static_cast<std::size_t>(dof)] += weight * force;
+  }
+
+  std::vector<std::size_t> numbers_of_forces() const {
+    std::vector<std::size_t> numbers;
+    for (const PointForceSpec& force : problem_.forces) numbers.push_back(force.number);
+    return numbers;
   }
 
   void find(const Parts& phase) {

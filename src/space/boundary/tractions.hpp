@@ -15,6 +15,7 @@
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/border_piece.hpp"
 #include "space/boundary/boundary_condition.hpp"
+#include "space/boundary/loads_before.hpp"
 #include "space/boundary/traction_pieces.hpp"
 
 namespace stillpoint {
@@ -51,9 +52,11 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
       if (!piece.freeze_in_single_phase(phase)) throw_scene_error("traction", "there is no material at this face");
   }
   void leave_placed(const WaysSincePlaced<dim>& ways) override {
-    for (Piece& piece : pieces_)
+    for (Piece& piece : pieces_) {
+      if (piece.goes_on) continue;
       if (const auto way = ways.at(piece.body, piece.X); way && !ways.in_place())
         piece.leave_placed(*way, /*in_place=*/false);
+    }
   }
   std::string_view kind() const override { return "tractions"; }
   bool varies() const override {
@@ -106,6 +109,20 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
         "traction_positions", pieces_, [](Piece & piece) -> auto& { return piece.at.x; });
     state.each(
         "traction_areas", pieces_, [](Piece & piece) -> auto& { return piece.vector; });
+    if (problem_.phase.at_stages) LoadsBefore::archive_numbers(state, numbers_of_pieces());
+  }
+  // Tractions that have ended are left out, and those that begin are where the scene puts them.
+  void take_over(const StateArchive& state) override {
+    const LoadsBefore before(state, numbers_of_pieces());
+    std::vector<double> x, vector;
+    state("traction_positions", x, "traction_areas", vector);
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      const auto place = before.place_of(k);
+      if (!place) continue;
+      pieces_[k].goes_on = true;
+      before.copy_to(pieces_[k].at.x, x, *place);
+      before.copy_to(pieces_[k].vector, vector, *place);
+    }
   }
   // The pieces move with the body.
   void end_phase(const double* u) override {
@@ -115,13 +132,19 @@ class Tractions final : public BoundaryCondition<dimensions(K)> {
  private:
   struct Piece : BorderPiece<K> {
     const TractionSpec* traction;
-    std::size_t body;  // that it is a part of the border of
+    std::size_t body;      // that it is a part of the border of
+    bool goes_on = false;  // whether the stage before has left it where it is
   };
   struct Values {
     double t = std::numeric_limits<double>::quiet_NaN();  // when they hold [s]
     std::vector<std::array<double, dim>> of_piece;        // the traction, or the pressure, (pieces) [Pa]
   };
 
+  std::vector<std::size_t> numbers_of_pieces() const {
+    std::vector<std::size_t> numbers;
+    for (const Piece& piece : pieces_) numbers.push_back(piece.traction->number);
+    return numbers;
+  }
   // The values of all pieces at t: a formula of t alone is evaluated once for all pieces of a traction, and a formula
   // of the position again only if t has changed and it depends on t.
   auto evaluate(double t) const {

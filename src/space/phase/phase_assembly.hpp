@@ -36,7 +36,11 @@ struct PhaseAssembly {
     if (begin.carried) {
       const auto* const points = static_cast<const CarriedBodyOf<K>*>(begin.carried);
       conditions.take_over(points->conditions);
-      if (frame.begins_from_other_run(points)) conditions.leave_placed(*points, frame.grid);
+      if (frame.begins_from_other_run(points)) {
+        conditions.leave_placed(*points, frame.grid);
+      } else {
+        conditions.place_new_loads(*points, frame.grid);
+      }
       rest.take_over(begin.carried->rest);
       if (stage_gives_stresses()) force.take_new_materials();
     }

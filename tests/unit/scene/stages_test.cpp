@@ -9,6 +9,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "scene/controlled_loads.hpp"
 #include "scenes.hpp"
 
 using namespace stillpoint;
@@ -79,6 +80,81 @@ TEST_CASE("rigid bodies and driven loads in stages that cannot be are refused by
              Catch::Contains("load.at: must be the time of a [[stage]], and there is none at t = 2"));
 }
 
+TEST_CASE("a load that a stage holds stands aside until then, and one that a stage releases is gone from then on") {
+  const std::string lifts = "add=['lift 2', 'lift 3', 'lift 4', 'lift 5', 'lift 6']";
+  Scene scene = scenes::load(
+      "ladder/lifts",
+      {"stage=[{at=1, " + lifts + ", release=['early'], hold=['late', 'pile']}]",
+       "traction=[{name='late', line=[[0, 'H'], ['h', 'H']], value=[0, -1]}, {name='early', line=[[0, 'h'], ['h', "
+       "'h']], value=[0, -2]}]",
+       "force=[{name='pile', at=['h/2', 'H'], value=[0, -3]}, {at=['h/2', 'h/2'], value=[0, -4]}]"});
+  REQUIRE(scene.tractions.size() == 1);
+  CHECK(scene.tractions[0].name == "early");
+  CHECK(scene.tractions[0].number == 1);
+  REQUIRE(scene.forces.size() == 1);
+  CHECK(scene.forces[0].number == 1);
+  CHECK(names_of_loads(scene) ==
+        std::vector<std::string>{"traction[1]", "traction[0]", "force[1]", "force[0]", "body_force"});
+  begin_next_stage(scene);
+  REQUIRE(scene.tractions.size() == 1);
+  CHECK(scene.tractions[0].name == "late");
+  CHECK(scene.tractions[0].number == 0);
+  REQUIRE(scene.forces.size() == 2);
+  CHECK(scene.forces[0].number == 1);
+  CHECK(scene.forces[1].name == "pile");
+}
+
+TEST_CASE("[load] drives loads by their numbers as they were written, whatever stands aside") {
+  const Scene scene = scenes::load(
+      "ladder/lifts", {"stage=[{at=1, add=['lift 2', 'lift 3', 'lift 4', 'lift 5', 'lift 6'], hold=['late']}]",
+                       "traction=[{name='late', line=[[0, 'H'], ['h', 'H']], value=[0, -1]}, {line=[[0, 0], [0, 'h']], "
+                       "value=[0, -2]}]",
+                       "load={displacement='0.01*t', of=['traction[1]']}", "solve.method=relaxation", "stop.time=4"});
+  REQUIRE(reference_loads(scene).tractions.size() == 1);
+  CHECK(reference_loads(scene).tractions[0].number == 1);
+  CHECK(without_reference_loads(scene).tractions.empty());
+}
+
+TEST_CASE("loads in stages that cannot be are refused by name, with what to do") {
+  const std::string top = "traction=[{name='top', line=[[0, 'H'], ['h', 'H']], value=[0, -1]}]";
+  const std::string unnamed = "traction=[{line=[[0, 'H'], ['h', 'H']], value=[0, -1]}]";
+  const std::string lifted = "{at=1, add=['lift 5']}, {at=2, add=['lift 6']}";
+  CHECK_THAT(refusal(lifted, {unnamed}),
+             Catch::Contains("traction[0].line: lies on body 'lift 6', which is not there yet: the stage at t = 2 adds "
+                             "it; give the load a name and list it in hold of that stage or of a later one"));
+  CHECK_THAT(refusal(lifted, {"force=[{at=['h/2', 'H'], value=[0, -1]}]"}),
+             Catch::Contains("force[0].at: lies on body 'lift 6', which is not there yet: the stage at t = 2 adds it; "
+                             "give the load a name and list it in hold of that stage or of a later one"));
+  CHECK_THAT(
+      refusal("{at=1, hold=['top']}, {at=2, add=['lift 6']}", {top}),
+      Catch::Contains("in the stage at t = 1: ") &&
+          Catch::Contains("lies on body 'lift 6', which is not there yet: the stage at t = 2 adds it; list 'top' "
+                          "in hold of that stage or of a later one"));
+  const std::string on_fifth = "line=[[0, '5*h'], ['h', '5*h']], value=[0, -1]}]";
+  CHECK_THAT(refusal("{at=1, add=['lift 6']}", {"traction=[{" + on_fifth}),
+             Catch::Contains("touch here, so that nothing can load one of them; if the load ends with this stage, give "
+                             "it a name and list that in its release"));
+  CHECK(refusal("{at=1, add=['lift 6'], release=['fifth']}", {"traction=[{name='fifth', " + on_fifth}).empty());
+  CHECK_THAT(refusal("{at=1, remove=['lift 6']}", {top}),
+             Catch::Contains("no straight side of a box or a polygon holds both positions") &&
+                 Catch::Contains("; if the load ends with this stage, list 'top' in its release"));
+  CHECK_THAT(refusal("{at=1, remove=['lift 6']}", {"force=[{name='pile', at=['h/2', 'H'], value=[0, -1]}]"}),
+             Catch::Contains("lies outside the bodies of this stage; if the load ends with this stage, list 'pile' in "
+                             "its release"));
+  CHECK_THAT(refusal("{at=1, hold=['lift 2']}"), Catch::Contains("'lift 2' is a body, which add and remove name"));
+  CHECK_THAT(refusal("{at=1, hold=['top']}, {at=2, hold=['top']}", {top}),
+             Catch::Contains("stage[1].hold[0]: load 'top' comes twice"));
+  CHECK_THAT(refusal("{at=1, release=['top']}, {at=2, release=['top']}", {top}),
+             Catch::Contains("stage[1].release[0]: load 'top' is not there then"));
+  CHECK_THAT(refusal("{at=1}", {top, "support=[{face='bottom', name='top'}]"}),
+             Catch::Contains("traction[0].name: there is a support 'top' already"));
+  CHECK_THAT(refusal("{at=1, hold=['top']}", {top, "force=[{name='top', at=['h/2', 'h'], value=[0, -1]}]"}),
+             Catch::Contains("force[0].name: there is a traction 'top' already"));
+  CHECK_THAT(
+      refusal("{at=1, hold=['top']}", {top, "solve.method=relaxation", "load={displacement='t'}", "stop.time=4"}),
+      Catch::Contains("stage[0].hold[0]: load 'top' is one of those that [load] drives"));
+}
+
 TEST_CASE("elastic boxes that move on by phases represent domains in all stages, or in none if a later body cannot") {
   const auto quadrature = [](const std::vector<std::string>& more) {
     return scenes::load("ladder/lifts", scenes::with({"solve.method=relaxation", "damping.strategy=viscous",
@@ -121,7 +197,9 @@ TEST_CASE("stages that cannot be are refused by name") {
       {"{at=1, change=['lift 2'], material=['fill']}", "'linear-elastic' is a law without history"},
       {"{at=1, change=['lift 2', 'lift 2'], material=['fill', 'fill']}",
        "body 'lift 2' changes twice at the same time"},
-      {"{at=1, hold=['prop']}", "there is no support 'prop'"},
+      {"{at=1, hold=['prop']}",
+       "there is no support or load 'prop'; describe it in a table [[support]], [[traction]] or "
+       "[[force]] with a name"},
       {"{at=1, ramp=1}", "stage[0].ramp: 'newton' is a static solver"},
       {"{at=0, add=['lift 2']}", "stage[0].add: at t = 0 there is what the scene has"},
       {"{at=1, add=['lift 2'], K0=0.5}",
