@@ -90,7 +90,7 @@ void find_omega_1(SetUpState& set_up) {
       parts.shared(part_omega_1, model.mass, [&] { return omega_1_by_lanczos(*model.phase, model.t, model.u); });
   if (lowest.converged) {
     model.omega_1 = lowest.omega;
-    if (!plan.chooses_mass && problem.mass.scaling == MassScaling::uniform)
+    if (!plan.chooses_mass && !plan.static_method && problem.mass.scaling == MassScaling::uniform)
       set_up.note(lowest_mode_notes(problem, *model.phase, lowest.mode, lowest.omega));
     return;
   }
