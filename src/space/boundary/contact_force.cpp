@@ -272,6 +272,17 @@ void ContactForce<K, Finder>::set_multiplier(std::size_t piece, const Eigen::Row
   if (remembers()) lambda_t_[piece] = value.template tail<N>();
 }
 
+// Of bodies that deform much pieces open and close within cells, and by functions they come to no end.
+template <Kinematics K, class Finder>
+Eigen::MatrixXd ContactForce<K, Finder>::told(const Touches& touches, const Eigen::MatrixXd& borne) const {
+  if (surface_.is_of_small_strain()) return TraceFit(surface_.pieces(), touches.pieces)(borne);
+  const PatchMeans means = means_of_patches(touches.all, borne);
+  Eigen::MatrixXd told(borne.rows(), borne.cols());
+  Eigen::Index row = 0;
+  for (const Touch& touch : touches.all) told.row(row++) = means.values.row(static_cast<Eigen::Index>(touch.patch));
+  return told;
+}
+
 // A piece that is open beside others of its patch bears as they do where it closes.
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::take(const std::vector<Touch>& touches, const Eigen::MatrixXd& borne) {
@@ -315,20 +326,20 @@ void ContactForce<K, Finder>::change_evenly(const std::vector<Touch>& touches, E
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::update_multipliers(double t, const double* u, bool evenly) {
   const RigidPlacement<N> placement = this->placement(t, u);
-  const auto [touches, pieces] = this->touches(placement, u);
-  Eigen::MatrixXd borne(touches.size(), remembers() ? 1 + N : 1);  // p, τ
+  const Touches touches = this->touches(placement, u);
+  Eigen::MatrixXd borne(touches.all.size(), remembers() ? 1 + N : 1);  // p, τ
   Eigen::Index row = 0;
-  for (const Touch& touch : touches) {
+  for (const Touch& touch : touches.all) {
     borne(row, 0) = touch.p;
     if (remembers()) borne.row(row).template tail<N>() = placement.Q.transpose() * touch.tau;
     ++row;
   }
   if (evenly) {
-    change_evenly(touches, std::move(borne));
+    change_evenly(touches.all, std::move(borne));
   } else {
-    take(touches, TraceFit(surface_.pieces(), pieces)(borne));
+    take(touches.all, told(touches, borne));
   }
-  for (const Touch& touch : touches)
+  for (const Touch& touch : touches.all)
     if (touch.slips && remembers()) drag(placement, touch);
 }
 
@@ -336,18 +347,18 @@ template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::add_fit(double t, const double* u, ContactFit& fit) const {
   const RigidPlacement<N> placement = this->placement(t, u);
   if (finder_.is_free()) fit.balanced = fit.balanced && balance(t, placement, u).is_near();
-  const auto [touches, pieces] = this->touches(placement, u);
-  Eigen::MatrixXd fitted(touches.size(), 2);  // g, p
+  const Touches touches = this->touches(placement, u);
+  Eigen::MatrixXd fitted(touches.all.size(), 2);  // g, p
   Eigen::Index row = 0;
-  for (const Touch& touch : touches) fitted.row(row++) << touch.at.distance, touch.p;
-  fitted = TraceFit(surface_.pieces(), pieces)(fitted);
+  for (const Touch& touch : touches.all) fitted.row(row++) << touch.at.distance, touch.p;
+  fitted = told(touches, fitted);
   const auto feel = [&](const Touch& touch, double p, std::vector<double>& unknowns) {
     Point<dim> f;
     for (std::size_t i = 0; i < dim; ++i) f[i] = touch.area * p * touch.at.normal[static_cast<Eigen::Index>(i)];
     surface_.add(touch.piece, f, unknowns, {});
   };
   row = 0;
-  for (const Touch& touch : touches) {
+  for (const Touch& touch : touches.all) {
     fit.touches = true;
     fit.misfit = std::max(fit.misfit, std::abs(fitted(row, 0)) / surface_.patches()[touch.patch].cell);
     feel(touch, touch.p, fit.forces);

@@ -12,7 +12,8 @@
 //   ∂f/∂x = −A (κ n nᵀ − p ∇n).
 //
 // A penalty alone gives way by p/κ. The augmented Lagrangian [Simo and Laursen 1992] takes that back: in equilibrium λ
-// becomes what the grid's functions can tell of p (trace_fit.hpp), and the body goes on to where g has no such part.
+// becomes what the grid's functions can tell of p (trace_fit.hpp), or in bodies that deform much its mean over the
+// patch, and the body goes on to where g has no such part.
 //
 // Friction [Coulomb] and adhesion c: with the anchor a, the position T⁻¹ x at which the piece stuck last, the elastic
 // slip s = (I − n nᵀ)(T⁻¹ x − a) and the multiplier λ_t,
@@ -172,6 +173,9 @@ class ContactForce {
     std::vector<double> area;  // likewise [m²]
     Eigen::MatrixXd values;    // (patches × components); 0 where nothing touches
   };
+  /// What can be told of values of the pieces that touch, (touches × components): what the grid's functions can
+  /// (trace_fit.hpp), or the means of patches.
+  Eigen::MatrixXd told(const Touches& touches, const Eigen::MatrixXd& borne) const;
   PatchMeans means_of_patches(const std::vector<Touch>& touches, const Eigen::MatrixXd& values) const;
   /// λ, and with friction λ_t, as a row.
   Eigen::RowVectorXd multiplier(std::size_t piece) const;

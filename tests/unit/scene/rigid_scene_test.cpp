@@ -128,7 +128,7 @@ TEST_CASE("a motion that is none of a rigid body, and names of nothing, are refu
           {"one value", motion, "motion = \"t\"", "26:10", "rigid[0].motion: expected 2 values, found 1"},
           {"two turns", motion, "rotation = [\"t\", \"t\"]", "26:12", "rigid[0].rotation: expected 1 value, found 2"},
           {"a centre elsewhere", motion, "about = [0, 0, 0]", "26:9",
-           "rigid[0].about: expected 2 coordinates, found 3"},
+           "rigid[0].about: expected 2 values, found 3"},
           {"negative friction", "friction = 0.3", "friction = -1", "27:12", "must be at least 0, not -1"},
           {"rough misspelt", "friction = 0.3", "friction = \"ruogh\"", "27:12", "did you mean 'rough'?"},
           {"no such body", "bodies = [\"block\"]", "bodies = [\"blok\"]", "28:11",
