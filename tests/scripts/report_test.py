@@ -222,7 +222,7 @@ def _(folder):
         said = browser.text("[aria-labelledby=history] .legend").replace("−", "-")
         assert f"load.factor {factor:.6g}" in said and f"{q:.5e}".replace("e-0", "e-") in said, (said, factor, q)
         found = titles_of(browser.open(newton))
-        titles = ["Force [N]", "Contact area [m²]", "Penetration [cells]", run[0], "Error bound ‖u − u*‖/‖u‖"]  # no energy changes
+        titles = ["Force [N]", "Contact area [m²]", "Penetration [cells]", run[0], "Error bound ‖u − u*‖/‖u‖", run[1]]  # the work
         assert found == [(title, "steps of the solver") for title in titles], found
         assert browser.log() == []
 

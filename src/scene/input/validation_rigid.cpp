@@ -45,6 +45,11 @@ class RigidCheck {
     check_formulas("motion", spec_.motion, dim);
     check_formulas("rotation", spec_.rotation, dimension_info(check_.scene().dim).turns.size());
     const bool turns = check_.given(key("rotation"), !spec_.rotation.empty());
+    const bool has_centre = check_.given(key("about"), !spec_.about.empty());
+    // It is the centre of a rotation, and of the moment that is reported, which a body has that does not turn as well.
+    if (has_centre && check_.sound(key("about")))
+      check_.wrong_if(spec_.about.size() != dim, key("about"), "expected {} coordinates, found {}", dim,
+                      spec_.about.size());
     if (check_.scene().state != StressState::axisymmetric) return;
     check_.wrong_if(!spec_.motion.empty() && !rests(spec_.motion[0]), key("motion[0]"),
                     "what is turned about the axis of symmetry moves along it alone; expected 0");
