@@ -138,8 +138,8 @@ class PhaseControl {
   virtual RestFigures rest_figures(double t, ConstVec reactions) const = 0;
   /// Takes the pressures of contact at (t, u) as multipliers, which changes R there: the body may go on to where
   /// nothing penetrates. evenly: by changes smoothed over neighbouring patches, as often as one likes; otherwise by all
-  /// that the grid's functions can tell, which comes nearer in few updates. R, (n), and of: an evaluation at (t, u), of which R and the
-  /// reactions become those with the new multipliers.
+  /// that the grid's functions can tell, which comes nearer in few updates. R, (n), and of: an evaluation at (t, u), of
+  /// which R and the reactions become those with the new multipliers.
   virtual void update_multipliers(double t, ConstVec u, bool evenly, Vec R, TrialState& of) = 0;
   /// Gives the points materials of the same laws and the same elasticity with other parameters, from the next
   /// evaluation on; stress and history stay. materials: by their names.
