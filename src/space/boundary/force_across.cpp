@@ -33,9 +33,9 @@ double force_across(const ContactSurface<K>& surface, const std::vector<PushedPi
   constexpr double few = 3;                            // pieces along each direction of the border
   constexpr double beside = 1, chord = 2, like = 0.7;  // [cells]; the cosine between the normals of a chord
   using Position = typename TouchFinder<K>::Position;
-  const auto direction = [](Position along) -> Position {
-    if (K == Kinematics::axisymmetric) along[0] = 0;
-    return along.normalized();
+  const auto direction = [](Position way) -> Position {
+    if (K == Kinematics::axisymmetric) way[0] = 0;
+    return way.normalized();
   };
   Position F = Position::Zero();
   double sum = 0, squares = 0;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <ranges>
+#include <numeric>
 #include <unordered_map>
 
 #include <Eigen/Geometry>
@@ -42,8 +42,8 @@ void for_functions(const BorderPiece<K>& piece, const Visit& visit) {
 using OfFunctions = std::unordered_map<std::int64_t, double>;
 
 /// Σ A w² over these pieces.
-template <Kinematics K, class Pieces>
-OfFunctions squares(Border<K> border, const Pieces& pieces) {
+template <Kinematics K>
+OfFunctions squares(Border<K> border, const std::vector<std::size_t>& pieces) {
   OfFunctions sums;
   for (const std::size_t s : pieces)
     for_functions(border[s], [&](std::int64_t key, double w) { sums[key] += border[s].size() * w * w; });
@@ -54,8 +54,10 @@ OfFunctions squares(Border<K> border, const Pieces& pieces) {
 template <Kinematics K>
 OfFunctions shares(Border<K> border, const std::vector<std::size_t>& pieces) {
   OfFunctions shares = squares<K>(border, pieces);
-  const OfFunctions all = squares<K>(border, std::views::iota(std::size_t{0}, border.size()));
-  for (auto& [key, share] : shares) share /= all.at(key);
+  std::vector<std::size_t> all(border.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const OfFunctions of_all = squares<K>(border, all);
+  for (auto& [key, share] : shares) share /= of_all.at(key);
   return shares;
 }
 
