@@ -1,11 +1,13 @@
 // Contact between bodies against exact answers, and what has to be the same whichever way it is found.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "files.hpp"
 #include "scenes.hpp"
@@ -23,6 +25,25 @@ double error_of_blocks(const Summary& s, double E_2) {
   const double force = std::abs(s.contacts.at("block+base.force_y") - 1);
   const double top = -(0.95 / 100 + 0.95 / E_2);
   return std::max(force, std::abs(scenes::probe(s, "top", "u.y") / top - 1));
+}
+
+/// A smooth disc on a smooth block, with its weight and a share of it along the block.
+std::string disc_on_block(double share, const std::string& pair) {
+  constexpr int corners = 44;
+  std::vector<std::string> disc;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners;
+    disc.push_back(fmt::format("[{}, {}]", 0.83 + 0.3 * std::cos(angle), 0.58 + 0.3 * std::sin(angle)));
+  }
+  return fmt::format(
+      "dim = 2\n[grid]\nmin = [0, 0]\nmax = [2, 1]\ncells = [64, 32]\n"
+      "[[body]]\nname = 'block'\nmax = [2, 0.28]\nmaterial = 'm'\nplacement = 'gauss'\n"
+      "[[body]]\nname = 'disc'\npolygon = [{}]\nmaterial = 'n'\nplacement = 'gauss'\n"
+      "[material.m]\nlaw = 'linear-elastic'\nE = 1e6\nnu = 0.3\nrho = 1\n"
+      "[material.n]\nlaw = 'linear-elastic'\nE = 1e6\nnu = 0.3\nrho = 1000\n"
+      "[[support]]\nface = 'bottom'\n[[contact]]\nbodies = [{}]\n[body_force]\nvalue = [{}, -10]\n"
+      "[damping]\nstrategy = 'auto'\n[stop]\nresidual = 1e-6\n",
+      fmt::join(disc, ", "), pair, 10 * share);
 }
 
 }  // namespace
@@ -150,6 +171,18 @@ TEST_CASE("bodies that turn to each other within a single phase, and end in one 
   const Summary through = moved_by(1.6);
   CHECK(through.status == RunStatus::step_limit);
   CHECK_THAT(through.reason, Catch::Contains("'arm' and 'base' have gone through each other"));
+}
+
+TEST_CASE("a smooth disc that is pushed along a smooth block is not said to rest where it has slid to in one phase") {
+  for (const std::string pair : {"'block', 'disc'", "'disc', 'block'"}) {
+    CAPTURE(pair);
+    const Summary pushed = scenes::run_text(disc_on_block(0.03, pair));
+    CHECK(pushed.status != RunStatus::equilibrium);
+    const Summary rests = scenes::run_text(disc_on_block(0, pair));
+    CHECK(rests.status == RunStatus::equilibrium);
+  }
+  CHECK_THAT(scenes::run_text(disc_on_block(0.03, "'block', 'disc'")).reason,
+             Catch::Contains("nothing holds 'disc' along x"));
 }
 
 }  // namespace stillpoint::test

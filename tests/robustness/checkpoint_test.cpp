@@ -48,6 +48,14 @@ void check_same_bits(const BrokenOff& one, long steps) {
 
 const std::vector<std::string> few_steps = {"stop.steps=90", "output.every=0.003"};
 
+/// Settings of lifts that swing for 1.2 s, of a fill with this law; more: further ones.
+std::vector<std::string> swinging_lifts(const char* law, const std::vector<std::string>& more) {
+  std::vector<std::string> settings = {std::string("material.fill.") + law, "solve.method=relaxation",
+                                       "damping.strategy=cundall", "stop.time=1.2", "output.every=0.05"};
+  settings.insert(settings.end(), more.begin(), more.end());
+  return settings;
+}
+
 }  // namespace
 
 TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one with every integrator") {
@@ -88,21 +96,16 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
 
 TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one in any of its stages") {
   for (const char* law : {"law=linear-elastic", "law=hencky", "law=drucker-prager"}) {
-    std::vector<std::string> set = {
-        std::string("material.fill.") + law,
-        "solve.method=relaxation",
-        "damping.strategy=cundall",
-        "stop.time=1.2",
-        "output.every=0.05",
-        "stage=[{at=0.2, add=['b'], hold=['prop']}, {at=0.5, add=['c'], release=['prop']}, "
-        "{at=0.8, remove=['c']}]",
-        "body=[{name='a', max=['h', '2*h'], material='fill', state='plane-strain'}, {name='b', "
-        "min=[0, '2*h'], max=['h', '3*h'], material='fill'}, {name='c', min=[0, '3*h'], "
-        "max=['h', '5*h'], material='fill'}]",
-        "support=[{face='bottom', name='floor'}, {face='left', kind='roller'}, {face='right', "
-        "kind='roller'}, {name='prop', at=[0, 'h'], component='y'}]",
-        "probe=[{name='top', at=['h/2', '5*h'], fields=['u.y']}, {name='ground', at=['h/2', "
-        "'2*h'], fields=['u.y', 'stress.yy']}]"};
+    std::vector<std::string> set =
+        swinging_lifts(law, {"stage=[{at=0.2, add=['b'], hold=['prop']}, {at=0.5, add=['c'], release=['prop']}, "
+                             "{at=0.8, remove=['c']}]",
+                             "body=[{name='a', max=['h', '2*h'], material='fill', state='plane-strain'}, {name='b', "
+                             "min=[0, '2*h'], max=['h', '3*h'], material='fill'}, {name='c', min=[0, '3*h'], "
+                             "max=['h', '5*h'], material='fill'}]",
+                             "support=[{face='bottom', name='floor'}, {face='left', kind='roller'}, {face='right', "
+                             "kind='roller'}, {name='prop', at=[0, 'h'], component='y'}]",
+                             "probe=[{name='top', at=['h/2', '5*h'], fields=['u.y']}, {name='ground', at=['h/2', "
+                             "'2*h'], fields=['u.y', 'stress.yy']}]"});
     for (const long steps : {60L, 120L, 200L, 300L}) check_same_bits({"ladder/lifts", set}, steps);
   }
   // At rest, and waiting for the time of the next stage: what told equilibrium is kept.
@@ -116,38 +119,28 @@ TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one
 TEST_CASE(
     "a run that is broken off and resumed has the bits of the unbroken one in stages that loads begin and end with") {
   for (const char* law : {"law=linear-elastic", "law=hencky", "law=drucker-prager"}) {
-    const std::vector<std::string> set = {
-        std::string("material.fill.") + law,
-        "solve.method=relaxation",
-        "damping.strategy=cundall",
-        "stop.time=1.2",
-        "output.every=0.05",
-        "body=[{name='a', max=['h', '2*h'], material='fill', state='plane-strain'}, {name='b', min=[0, '2*h'], "
-        "max=['h', '3*h'], material='fill'}]",
-        "traction=[{name='surcharge', line=[[0, '3*h'], ['h', '3*h']], value=[0, -1e4]}]",
-        "force=[{name='pile', at=['h/2', '3*h'], value=[0, -100]}, {at=['h/2', 'h'], value=[0, -200]}]",
-        "stage=[{at=0.2, add=['b']}, {at=0.5, hold=['surcharge', 'pile']}, {at=0.8, release=['surcharge']}]",
-        "support=[{face='bottom', name='floor'}, {face='left', kind='roller'}, {face='right', kind='roller'}]",
-        "probe=[{name='ground', at=['h/2', '2*h'], fields=['u.y', 'stress.yy']}]"};
+    const std::vector<std::string> set = swinging_lifts(
+        law, {"body=[{name='a', max=['h', '2*h'], material='fill', state='plane-strain'}, {name='b', min=[0, '2*h'], "
+              "max=['h', '3*h'], material='fill'}]",
+              "traction=[{name='surcharge', line=[[0, '3*h'], ['h', '3*h']], value=[0, -1e4]}]",
+              "force=[{name='pile', at=['h/2', '3*h'], value=[0, -100]}, {at=['h/2', 'h'], value=[0, -200]}]",
+              "stage=[{at=0.2, add=['b']}, {at=0.5, hold=['surcharge', 'pile']}, {at=0.8, release=['surcharge']}]",
+              "support=[{face='bottom', name='floor'}, {face='left', kind='roller'}, {face='right', kind='roller'}]",
+              "probe=[{name='ground', at=['h/2', '2*h'], fields=['u.y', 'stress.yy']}]"});
     for (const long steps : {60L, 150L, 200L, 300L}) check_same_bits({"ladder/lifts", set}, steps);
   }
 }
 
 TEST_CASE("a run that is broken off and resumed has the bits of the unbroken one in stages with contact") {
   for (const char* law : {"law=linear-elastic", "law=hencky", "law=drucker-prager"}) {
-    const std::vector<std::string> set = {
-        std::string("material.fill.") + law,
-        "solve.method=relaxation",
-        "damping.strategy=cundall",
-        "stop.time=1.2",
-        "output.every=0.05",
-        "body=[{name='a', max=['h', '2*h'], material='fill', state='plane-strain'}, {name='b', min=[0, '2*h'], "
-        "max=['h', '3*h'], material='fill'}, {name='c', min=[0, '3*h'], max=['h', '4*h'], material='fill'}]",
-        "rigid=[{name='plate', half_plane=[[0, '4*h'], [0, -1]], motion=['0.01*t', '-0.02*t'], friction=0.3}, "
-        "{name='footing', min=[0, '3*h'], max=['h', '5*h'], free=true, force=['0', '-2e4'], bodies=['b']}]",
-        "contact=[{bodies=['c', 'b'], friction=0.4}]",
-        "stage=[{at=0.2, add=['c', 'plate']}, {at=0.6, remove=['c', 'plate'], add=['footing']}]",
-        "probe=[{name='ground', at=['h/2', '2*h'], fields=['u.y', 'stress.yy']}]"};
+    const std::vector<std::string> set = swinging_lifts(
+        law, {"body=[{name='a', max=['h', '2*h'], material='fill', state='plane-strain'}, {name='b', min=[0, '2*h'], "
+              "max=['h', '3*h'], material='fill'}, {name='c', min=[0, '3*h'], max=['h', '4*h'], material='fill'}]",
+              "rigid=[{name='plate', half_plane=[[0, '4*h'], [0, -1]], motion=['0.01*t', '-0.02*t'], friction=0.3}, "
+              "{name='footing', min=[0, '3*h'], max=['h', '5*h'], free=true, force=['0', '-2e4'], bodies=['b']}]",
+              "contact=[{bodies=['c', 'b'], friction=0.4}]",
+              "stage=[{at=0.2, add=['c', 'plate']}, {at=0.6, remove=['c', 'plate'], add=['footing']}]",
+              "probe=[{name='ground', at=['h/2', '2*h'], fields=['u.y', 'stress.yy']}]"});
     for (const long steps : {60L, 150L, 250L}) check_same_bits({"ladder/lifts", set}, steps);
   }
 }

@@ -126,7 +126,6 @@ class HeldPresence {
   void begin(const std::string& key, const std::vector<std::string>& names) {
     check_one_by_one(key, names, &Presence::begin);
   }
-  bool is_support(const std::string& name) const { return supports_.knows(name); }
 
  private:
   void check_one_by_one(const std::string& key, const std::vector<std::string>& names,
@@ -252,9 +251,9 @@ void check_company_of_stages(SceneCheck& check) {
     check.wrong_if(scene.probes[k].point.has_value(), fmt::format("probe[{}].point", k),
                    "points have other numbers in other stages; take at");
   const auto springs = [&](const SupportSpec& support) { return holds_by_springs(scene.grid, support); };
-  const HeldPresence held(check);
+  const std::vector<std::string> supports = named(scene.supports, scene.later_supports);
   const auto changes = [&](const StageSpec& stage) {
-    const auto is_support = [&](const std::string& name) { return held.is_support(name); };
+    const auto is_support = [&](const std::string& name) { return std::ranges::count(supports, name) > 0; };
     return std::ranges::any_of(stage.hold, is_support) || std::ranges::any_of(stage.release, is_support);
   };
   check.wrong_if(

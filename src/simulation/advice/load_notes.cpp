@@ -96,7 +96,7 @@ void note_loads(const Problem& problem, const LagrangianPhase& phase, ConstVec u
     some_act = some_act || !zero;
   }
   if (zeros > most_told) notes.push_back(fmt::format("so are {} loads more", zeros - most_told));
-  const bool pushes = problem.may_touch() && phase.supports().contact_state(0, u).touches;
+  const bool pushes = problem.may_touch() && phase.supports().are_touched(0, u);
   if (!some_act && !pushes && is_still(problem))
     notes.emplace_back("no load acts and nothing moves: the body stays as it is");
   if (!some_act || loads_vary(problem) || problem.load) return;

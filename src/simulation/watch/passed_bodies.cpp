@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "scene/contact_bodies.hpp"
+#include "scene/dimensions.hpp"
 #include "scene/grid_lines.hpp"
 #include "simulation/advice/placed_points.hpp"
 #include "simulation/watcher.hpp"
@@ -177,6 +178,35 @@ std::string fault_of_turn(const LagrangianPhase& phase, double t, ConstVec u) {
   return "";
 }
 
+/// Bodies that slide along each other, and that only what was opposite when the phase began holds: of a round body that
+/// slides on, places push it back that have gone from under it. empty: there are none.
+std::string fault_of_slide(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
+  constexpr double little = 1e-2;  // of the force
+  if (problem.contacts.empty()) return "";
+  const std::vector<FreePart> parts = phase.shape().free_parts();
+  if (parts.empty()) return "";
+  const std::vector<int> body_of = phase.fields().point_data().bodies;
+  const std::vector<ContactReport> reports = phase.supports().contacts(t, u);
+  for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
+    const ContactReport& contact = reports[problem.rigid.size() + k];
+    const double force = std::hypot(contact.force[0], contact.force[1], contact.force[2]);
+    const auto [a, b] = bodies_of(problem, problem.contacts[k]);
+    for (const FreePart& part : parts) {
+      const auto body = static_cast<std::size_t>(body_of[part.point]);
+      const double strayed = std::abs(contact.strayed[static_cast<std::size_t>(part.axis)]);
+      if ((body != a && body != b) || !(strayed > little * force)) continue;
+      return fmt::format(
+          "nothing holds {} along {} but {:.2g} of the force of contact {}, which acts on parts of the borders that "
+          "were "
+          "opposite when the phase began and are opposite no more: they slid by up to {:.2g} cells along each other; "
+          "expected phases, as by phase.max_motion = 0.1",
+          name_of_body(problem, body), axis_names(phase.dim())[static_cast<std::size_t>(part.axis)], strayed / force,
+          contact.name, contact.slid);
+    }
+  }
+  return "";
+}
+
 class PassedBodies : public Watcher {
  public:
   void observe(RunState& run) override {
@@ -211,6 +241,8 @@ class PassedBodies : public Watcher {
     const LagrangianPhase& phase = *run.model.phase;
     const ConstVec u = run.motion->u();
     if (std::string fault = fault_of_turn(phase, run.t, u); !fault.empty()) found.faults.push_back(std::move(fault));
+    if (std::string fault = fault_of_slide(run.scene, phase, run.t, u); !fault.empty())
+      found.faults.push_back(std::move(fault));
     if (!run.scene.contacts.empty())
       for (const Overlap& overlap : overlaps(run.scene, phase, run.t, u))
         found.faults.push_back(described(run.scene, overlap));

@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -40,22 +39,6 @@ std::vector<typename CarriedPoint<dimensions(K)>::Entry> weights_at(const Opposi
   for (auto& entry : entries)
     for (std::size_t d = 0; d < facet.foot.size(); ++d) entry.w += (facet.foot[d] - x[d]) * entry.dN[d];
   return entries;
-}
-
-/// In the plane without a third component.
-template <std::size_t Dim>
-Eigen::Vector3d in_space(const std::array<double, Dim>& vector) {
-  Eigen::Vector3d all = Eigen::Vector3d::Zero();
-  for (std::size_t d = 0; d < Dim; ++d) all[static_cast<Eigen::Index>(d)] = vector[d];
-  return all;
-}
-
-/// By how much a normal has turned beyond the turn Q of another one, the shortest that there is:
-///   the angle between Q n and n',   N' = Q N.
-double angle_of_turn(const Eigen::Vector3d& n, const Eigen::Vector3d& n_now, const Eigen::Vector3d& N,
-                     const Eigen::Vector3d& N_now) {
-  const Eigen::Vector3d carried = Eigen::Quaterniond::FromTwoVectors(N, N_now) * n;
-  return std::atan2(carried.cross(n_now).norm(), carried.dot(n_now));
 }
 
 }  // namespace
@@ -229,24 +212,6 @@ void BodyContact<K>::add_entries(Tangent kind, const double* u, MatrixEntries& e
   }
 }
 
-// Each border turns with its normal. One piece of a patch tells as much as all of them: three on a generator of a
-// cylinder lie on a line, and the lines between pieces say nothing of a turn about it.
-template <Kinematics K>
-double BodyContact<K>::turned(const Pair& pair, const double* u) {
-  double most = 0;
-  const std::vector<char> bears = pair.force.bearing_patches({}, u);
-  const auto patches = pair.first.patches();
-  for (std::size_t k = 0; k < patches.size(); ++k) {
-    for (std::size_t s = patches[k].begin; bears[k] && s < patches[k].end; ++s) {
-      if (!pair.force.finder().is_there(s)) continue;
-      const BorderPiece<K>&piece = pair.first.piece(s), &opposite = pair.second.piece(pair.force.finder().opposite(s));
-      most = std::max(most, angle_of_turn(in_space(piece.vector), in_space(piece.deformed_area(u)),
-                                          in_space(opposite.vector), in_space(opposite.deformed_area(u))));
-    }
-  }
-  return most;
-}
-
 template <Kinematics K>
 double BodyContact<K>::growth() const {
   double most = 1;
@@ -267,20 +232,6 @@ void BodyContact<K>::update_multipliers(const double* u, bool evenly) {
 template <Kinematics K>
 void BodyContact<K>::add_fit(const double* u, ContactFit& fit) const {
   for (const Pair* const pair : whole_) pair->force.add_fit(0, u, fit);
-}
-
-template <Kinematics K>
-void BodyContact<K>::add_reports(const double* u, std::vector<ContactReport>& to) const {
-  for (const auto& pair : pairs_) {
-    ContactReport report;  // of nothing
-    if (are_there(problem_, pair->spec)) {
-      report = pair->force.report(0, u);
-      report.slid = pair->force.slid(u);
-      report.turned = turned(*pair, u);
-    }
-    report.name = pair->spec.name();
-    to.push_back(std::move(report));
-  }
 }
 
 template class BodyContact<Kinematics::line>;

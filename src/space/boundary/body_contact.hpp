@@ -10,6 +10,7 @@
 // While a stage of the run has only one of the two bodies, its border is followed all the same: the other may come.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -49,6 +50,9 @@ class BodyContact {
 
   void commit(const double* u);
   void update_multipliers(const double* u, bool evenly);
+  bool is_touched(const double* u) const {
+    return std::ranges::any_of(whole_, [&](const Pair* pair) { return pair->force.is_touched(0, u); });
+  }
   void add_fit(const double* u, ContactFit& fit) const;
   void add_reports(const double* u, std::vector<ContactReport>& to) const;
   /// Where bodies of a contact lie in each other at u without feeling it, at most one place for each contact.
@@ -74,6 +78,10 @@ class BodyContact {
   /// By how much the borders of the two bodies have turned on each other where they touch since the phase began, where
   /// most [rad].
   static double turned(const Pair& pair, const double* u);
+  /// How far pieces that touch have moved along what they touch since then, where most [cells].
+  static double slid(const Pair& pair, const double* u);
+  /// The part of the force that acts along normals of facets that are opposite no more [N].
+  static std::array<double, 3> strayed(const Pair& pair, const double* u);
   static std::string name_of(const Pair& pair);
   static void archive_slip(const StateArchive& state, Pair& pair);
 

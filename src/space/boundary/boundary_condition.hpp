@@ -103,6 +103,7 @@ struct PhaseParts {
   const std::vector<double>& node_mass;  // m_i, (functions) [kg]
   const Mass& mass;
   bool remembers;                   // whether some of the points have a history
+  bool is_of_small_strain;          // whether all laws are
   const std::vector<double>& gone;  // see PhaseFrame
 
   /// Where point p is when the phase begins.

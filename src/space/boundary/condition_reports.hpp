@@ -50,6 +50,8 @@ struct ContactReport {
   double held = 0;                       // the same where supports hold the border against it
   double slipping = 0;                   // share of that area which slips
   double slid = 0;                       // how far bodies have moved along each other in the phase, where most [cells]
+  std::array<double, 3> strayed{};  // the part of the force along normals of what was opposite when the phase began
+                                    // and is opposite no more [N]
   double turned = 0;   // by how much a piece that touches has turned on what it touches in the phase, where most [rad]
   double stretch = 1;  // by which a piece of the border that touches is drawn out, where most, if it is not cut anew
   // At a sharp corner a piece may be pushed along its own border, by the side of the rigid body that it is behind:
@@ -86,7 +88,7 @@ struct Intrusion {
 struct ContactState {
   bool touches = false;  // whether anything touches
   bool balanced = true;  // whether each free rigid body is where its forces balance
-  double misfit = 0;     // the largest mean penetration, or gap, of a patch that is touched [cells]
+  double misfit = 0;     // the largest penetration, or gap, that can be told [cells]
   double change = 0;  // by which its pressures would change the multipliers, as a share of what unknowns feel of them
 };
 

@@ -198,8 +198,13 @@ std::vector<Intrusion> Conditions<K>::intrusions(const Parts& phase, double t, c
 }
 
 template <Kinematics K>
+bool Conditions<K>::rigid_bodies_jump(double before, double t) const {
+  return !rigid_contact_->empty() && rigid_contact_->jumps(before, t);
+}
+
+template <Kinematics K>
 std::vector<Intrusion> Conditions<K>::passages(const Parts& phase, double before, double t, const double* u) const {
-  return rigid_contact_->empty() ? std::vector<Intrusion>() : rigid_contact_->passages(phase, before, t, u);
+  return rigid_contact_->passages(phase, before, t, u);
 }
 
 template <Kinematics K>
@@ -210,6 +215,11 @@ RigidFaces<K> Conditions<K>::faces_of_rigid_bodies(double t, const double* u) co
 template <Kinematics K>
 bool Conditions<K>::is_ahead(std::size_t body, const Point<dim>& direction, double t, const double* u) const {
   return rigid_contact_->is_ahead(body, direction, t, u);
+}
+
+template <Kinematics K>
+bool Conditions<K>::are_touched(double t, const double* u) const {
+  return rigid_contact_->is_touched(t, u) || body_contact_->is_touched(u);
 }
 
 template <Kinematics K>

@@ -124,8 +124,10 @@ class Conditions {
                                                  ConstVec reactions) const;
   std::vector<WeakSupport> weak_supports(double t, const double* u) const { return weak_supports_.report(t, u); }
   std::vector<ContactReport> contacts(double t, const double* u) const;
+  bool are_touched(double t, const double* u) const;
   ContactState contact_state(const Parts& phase, double t, const double* u) const;
   std::vector<Intrusion> intrusions(const Parts& phase, double t, const double* u) const;
+  bool rigid_bodies_jump(double before, double t) const;
   std::vector<Intrusion> passages(const Parts& phase, double before, double t, const double* u) const;
   bool is_ahead(std::size_t body, const Point<dim>& direction, double t, const double* u) const;
   bool are_driven() const { return load_control_.acts(); }

@@ -244,17 +244,15 @@ template <Kinematics K, class Finder>
 auto ContactForce<K, Finder>::means_of_patches(const std::vector<Touch>& touches, const Eigen::MatrixXd& values) const
     -> PatchMeans {
   const std::size_t patches = surface_.patches().size();
-  PatchMeans means{std::vector<char>(patches, 0), std::vector<double>(patches, 0.0),
+  PatchMeans means{std::vector<double>(patches, 0.0),
                    Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(patches), values.cols())};
   Eigen::Index row = 0;
   for (const Touch& touch : touches) {
     means.area[touch.patch] += touch.area;
     means.values.row(static_cast<Eigen::Index>(touch.patch)) += touch.area * values.row(row++);
   }
-  for (std::size_t k = 0; k < patches; ++k) {
-    means.bears[k] = means.area[k] > 0;
-    if (means.bears[k]) means.values.row(static_cast<Eigen::Index>(k)) /= means.area[k];
-  }
+  for (std::size_t k = 0; k < patches; ++k)
+    if (means.area[k] > 0) means.values.row(static_cast<Eigen::Index>(k)) /= means.area[k];
   return means;
 }
 
@@ -306,8 +304,8 @@ void ContactForce<K, Finder>::change_evenly(const std::vector<Touch>& touches, E
   std::vector<double> area(neighbours.groups(), 0.0);
   std::vector<char> bears(area.size(), 0);
   std::vector<Eigen::RowVectorXd> change(area.size(), none);
-  for (std::size_t k = 0; k < means.bears.size(); ++k) {
-    if (!means.bears[k]) continue;
+  for (std::size_t k = 0; k < means.area.size(); ++k) {
+    if (!(means.area[k] > 0)) continue;
     const std::size_t group = neighbours.group_of(k);
     bears[group] = 1;
     area[group] += means.area[k];
@@ -317,10 +315,19 @@ void ContactForce<K, Finder>::change_evenly(const std::vector<Touch>& touches, E
     if (bears[group]) change[group] /= area[group];
   const auto patches = surface_.patches();
   for (std::size_t k = 0; k < patches.size(); ++k) {
-    const Eigen::RowVectorXd even = means.bears[k] ? neighbours.smoothed(neighbours.group_of(k), change, bears) : none;
+    const bool touches_anything = means.area[k] > 0;
+    const Eigen::RowVectorXd even =
+        touches_anything ? neighbours.smoothed(neighbours.group_of(k), change, bears) : none;
     for (std::size_t s = patches[k].begin; s < patches[k].end; ++s)
-      set_multiplier(s, means.bears[k] ? Eigen::RowVectorXd(multiplier(s) + even) : none);
+      set_multiplier(s, touches_anything ? Eigen::RowVectorXd(multiplier(s) + even) : none);
   }
+}
+
+template <Kinematics K, class Finder>
+bool ContactForce<K, Finder>::is_touched(double t, const double* u) const {
+  bool is_touched = false;
+  for_closed(placement(t, u), u, [&](const Touch&) { is_touched = true; });
+  return is_touched;
 }
 
 template <Kinematics K, class Finder>
@@ -442,17 +449,6 @@ ContactReport ContactForce<K, Finder>::report(double t, const double* u) const {
   report.across = force_across<K>(surface_, pushed, u);
   report.is_gone = is_gone(t, u);
   return report;
-}
-
-template <Kinematics K, class Finder>
-double ContactForce<K, Finder>::slid(const double* u) const {
-  double most = 0;
-  for_closed(finder_.placement(0), u, [&](const Touch& touch) {
-    const Position moved = TouchFinder<K>::position_of(surface_.motion(touch.piece, u));
-    const Position along = moved - touch.at.normal.dot(moved) * touch.at.normal;
-    most = std::max(most, along.norm() / surface_.patches()[touch.patch].cell);
-  });
-  return most;
 }
 
 template <Kinematics K, class Finder>

@@ -112,6 +112,8 @@ class ContactForce {
   /// Takes the pressures at (t, u) as multipliers; evenly: by changes that are smoothed (patch_neighbours.hpp), of
   /// which there may be any number.
   void update_multipliers(double t, const double* u, bool evenly);
+  /// Whether a piece bears a pressure.
+  bool is_touched(double t, const double* u) const;
   /// fit: for the unknowns of the phase.
   void add_fit(double t, const double* u, ContactFit& fit) const;
   /// The mean gaps of the patches where they bear a pressure, (patches) [m]; NaN of a patch that bears none.
@@ -124,12 +126,18 @@ class ContactForce {
   void follow(const std::vector<PieceOrigin>& origins, std::vector<Position>& slip);
   /// The force on the border, and its moment about the placement's centre; without a name.
   ContactReport report(double t, const double* u) const;
-  /// How far pieces that touch have moved along what they touch since the phase began, where most [cells].
-  double slid(const double* u) const;
   /// T, of a free body with its d.
   RigidPlacement<N> placement(double t, const double* u) const;
   /// Whether a piece of a patch bears a pressure, (patches).
   std::vector<char> bearing_patches(const RigidPlacement<N>& placement, const double* u) const;
+
+  /// Calls visit(touch) for each piece that bears a pressure.
+  template <class Visit>
+  void for_closed(const RigidPlacement<N>& placement, const double* u, const Visit& visit) const {
+    for_touches(placement, u, 0, [&](const Touch& touch) {
+      if (touch.p > 0) visit(touch);
+    });
+  }
 
  private:
   void resize();
@@ -153,13 +161,6 @@ class ContactForce {
   /// Calls visit(touch) for each piece with λ − κ g ≥ −κ slack; slack: in cells.
   template <class Visit>
   void for_touches(const RigidPlacement<N>& placement, const double* u, double slack, const Visit& visit) const;
-  /// The same for those that bear a pressure.
-  template <class Visit>
-  void for_closed(const RigidPlacement<N>& placement, const double* u, const Visit& visit) const {
-    for_touches(placement, u, 0, [&](const Touch& touch) {
-      if (touch.p > 0) visit(touch);
-    });
-  }
   void drag(const RigidPlacement<N>& placement, const Touch& touch);
   /// The pieces that bear a pressure.
   struct Touches {
@@ -169,9 +170,8 @@ class ContactForce {
   Touches touches(const RigidPlacement<N>& placement, const double* u) const;
   /// Of what touches, by area.
   struct PatchMeans {
-    std::vector<char> bears;   // (patches)
-    std::vector<double> area;  // likewise [m²]
-    Eigen::MatrixXd values;    // (patches × components); 0 where nothing touches
+    std::vector<double> area;  // (patches) [m²]; 0 where nothing touches
+    Eigen::MatrixXd values;    // (patches × components); 0 there
   };
   /// What can be told of values of the pieces that touch, (touches × components): what the grid's functions can
   /// (trace_fit.hpp), or the means of patches.

@@ -7,8 +7,6 @@
 #include <Eigen/Core>
 #include <fmt/format.h>
 
-#include "space/materials/material_laws.hpp"
-
 namespace stillpoint {
 namespace {
 
@@ -16,21 +14,11 @@ bool is_on_smooth_way_to_rest(const Problem& problem) {
   return problem.stop.wants_equilibrium() && !loads_vary(problem) && !problem.rubs() && !problem.solve.is_static();
 }
 
-bool are_of_small_strain(const Problem& problem) {
-  return std::ranges::none_of(problem.materials, [](const auto& material) {
-    const std::vector<LawInfo>& laws = material_laws();
-    const auto law = std::ranges::find(laws, material.second.law, &LawInfo::name);
-    return law == laws.end() || law->finite_strain;
-  });
-}
-
 }  // namespace
 
 template <Kinematics K>
 ContactSurface<K>::ContactSurface(const Problem& problem, const std::vector<char>& touched, const Grid<dim>& grid)
-    : phases_end_(problem.phase.ends()),
-      is_of_small_strain_(are_of_small_strain(problem)),
-      beta_(is_on_smooth_way_to_rest(problem) ? 0.5 : 1) {
+    : phases_end_(problem.phase.ends()), beta_(is_on_smooth_way_to_rest(problem) ? 0.5 : 1) {
   for (const Axis& axis : grid.axes) extent_ = std::hypot(extent_, axis.max() - axis.min());
   const bool stretches = dim == 2 && problem.phase.ends() &&
                          problem.phase.quadrature != Quadrature::domains;  // as pieces that are carried
@@ -59,6 +47,7 @@ void ContactSurface<K>::begin_phase(const Parts& phase, const StiffnessBound& st
   take_weights(phase, nullptr);
   take_functions();
   neighbours_.find<K>(patches_, pieces_, group_);
+  is_of_small_strain_ = phase.is_of_small_strain;
   if (!has_begun_) choose_stiffness(stiffness_bound());
   has_begun_ = true;
 }

@@ -42,7 +42,7 @@ class ContactSurface {
   ContactSurface(const Problem& problem, const std::vector<char>& touched, const Grid<dim>& grid);
 
   bool empty() const { return pieces_.empty(); }
-  /// Whether all bodies of the scene are of laws of small strain.
+  /// Whether all laws of the present phase are of small strain.
   bool is_of_small_strain() const { return is_of_small_strain_; }
   std::span<const Patch> patches() const { return patches_; }
   std::size_t size() const { return pieces_.size(); }
@@ -180,7 +180,7 @@ class ContactSurface {
   void choose_stiffness(const std::vector<double>& G);
   double bound_of_frequency(const Parts& phase) const;
 
-  bool phases_end_, has_begun_ = false, is_of_small_strain_;
+  bool phases_end_, has_begun_ = false, is_of_small_strain_ = false;
   double beta_;
   std::vector<std::size_t> number_of_body_;  // (bodies)
   std::vector<char> has_stiffness_;          // likewise; from the stage before

@@ -30,8 +30,9 @@ double distance_from_cone(const Position& F, const std::vector<Position>& e) {
 
 template <Kinematics K>
 double force_across(const ContactSurface<K>& surface, const std::vector<PushedPiece<K>>& pushed, const double* u) {
-  constexpr double few = 3;                            // pieces along each direction of the border
-  constexpr double beside = 1, chord = 2, like = 0.7;  // [cells]; the cosine between the normals of a chord
+  constexpr double few = 3;                // pieces along each direction of the border
+  constexpr double beside = 1, chord = 2;  // [cells]
+  constexpr double alike = 0.7;            // the cosine between the normals of a chord
   using Position = typename TouchFinder<K>::Position;
   const auto direction = [](Position way) -> Position {
     if (K == Kinematics::axisymmetric) way[0] = 0;
@@ -59,7 +60,7 @@ double force_across(const ContactSurface<K>& surface, const std::vector<PushedPi
         if (away > chord) continue;
         const Position b = TouchFinder<K>::position_of(surface.normal(s));
         if (away <= beside) inwards.push_back(direction(-b));
-        if (b.dot(normal) >= like) of_chord += TouchFinder<K>::position_of(surface.piece(s).deformed_area(u));
+        if (b.dot(normal) >= alike) of_chord += TouchFinder<K>::position_of(surface.piece(s).deformed_area(u));
       }
     }
     inwards.push_back(direction(-of_chord));

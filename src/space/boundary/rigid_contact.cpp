@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -41,6 +42,8 @@ void RigidContact<K>::begin_phase(const Parts& phase, double t, const StiffnessB
   if (empty()) return;
   surface_.take_growth(phase);
   start_ = t;
+  least_cell_ = std::numeric_limits<double>::infinity();  // where the body to touch is not there yet
+  for (const SurfacePatch& patch : surface_.patches()) least_cell_ = std::min(least_cell_, patch.cell);
   for (RigidBody& rigid : bodies_) rigid.finder().begin_phase();
   if (std::exchange(has_begun_, true)) return;
   refuse_overlaps(t);

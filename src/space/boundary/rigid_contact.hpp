@@ -57,12 +57,19 @@ class RigidContact {
   void commit(double t, const double* u);
   /// Takes the pressures at (t, u) as multipliers.
   void update_multipliers(double t, const double* u, bool evenly);
+  bool is_touched(double t, const double* u) const {
+    return std::ranges::any_of(bodies_, [&](const RigidBody& rigid) { return rigid.is_touched(t, u); });
+  }
   void add_fit(double t, const double* u, ContactFit& fit) const;
   void add_reports(double t, const double* u, std::vector<ContactReport>& to) const;
   /// What lies in rigid bodies at (t, u), at most one place of a kind for each.
   std::vector<Intrusion> intrusions(const Parts& phase, double t, const double* u) const;
+  /// Whether a rigid body that is not free has gone more than half a cell since a time before.
+  bool jumps(double before, double t) const {
+    return std::ranges::any_of(bodies_, [&](const RigidBody& rigid) { return jumps(rigid.finder(), before, t); });
+  }
   /// What rigid bodies have gone right through since a time before: material points that lie deeper in them on the
-  /// straight way between their places than at its ends. Only of those that went more than half a cell.
+  /// straight way between their places than at its ends. Only of those that jump.
   std::vector<Intrusion> passages(const Parts& phase, double before, double t, const double* u) const;
   /// The faces of the rigid bodies at (t, u), at the end of a phase.
   RigidFaces<K> faces(double t, const double* u) const;
@@ -75,6 +82,15 @@ class RigidContact {
 
   std::size_t of_each() const { return dim * surface_.patches().size(); }
   static std::string name_of(const RigidBody& rigid);
+  bool jumps(const TouchFinder<K>& finder, double before, double t) const {
+    constexpr double jump = 0.5;  // [cells]
+    return !finder.is_free() && finder.moves() &&
+           way_between(finder.placement(before), finder.placement(t)) > jump * least_cell_;
+  }
+  /// How far a place of a rigid body goes at most from one placement to another, within the grid [m].
+  double way_between(const RigidPlacement<N>& from, const RigidPlacement<N>& to) const {
+    return (to.u - from.u).norm() + surface_.extent() * (to.Q - from.Q).norm();
+  }
   const char* begin() const { return is_later_stage_ ? "the stage begins" : "the run begins"; }
   /// The ways by which pieces that were put between two come to the mean of the gaps of their patches; gaps: of the
   /// patches before, NaN where they bear nothing [m]. origins: of all pieces.
@@ -99,7 +115,8 @@ class RigidContact {
   ContactSurface<K> surface_;
   std::vector<RigidBody> bodies_;
   bool has_begun_ = false, is_later_stage_ = false;
-  double start_ = 0;  // when the phase began [s]
+  double start_ = 0;       // when the phase began [s]
+  double least_cell_ = 0;  // the smallest cell of the surface's patches then [m]
 };
 
 }  // namespace stillpoint

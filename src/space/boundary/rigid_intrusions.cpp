@@ -75,19 +75,15 @@ std::vector<Intrusion> RigidContact<K>::intrusions(const Parts& phase, double t,
 // shallow.
 template <Kinematics K>
 std::vector<Intrusion> RigidContact<K>::passages(const Parts& phase, double before, double t, const double* u) const {
-  constexpr double jump = 0.5, apart = 0.125, deeper = 0.25;  // [cells]
-  constexpr double most = 2000;                               // looks on the way
+  constexpr double apart = 0.125, deeper = 0.25;  // [cells]
+  constexpr double most = 2000;                   // looks on the way
   std::vector<Intrusion> found;
-  if (surface_.empty()) return found;
-  const double cell = std::ranges::min_element(surface_.patches(), {}, &SurfacePatch::cell)->cell;
   for (std::size_t r = 0; r < bodies_.size(); ++r) {
     const TouchFinder<K>& finder = bodies_[r].finder();
-    if (finder.is_free()) continue;
+    if (!jumps(finder, before, t)) continue;
     const RigidPlacement<N> from = finder.placement(before), to = finder.placement(t);
-    const double way = (to.u - from.u).norm() + surface_.extent() * (to.Q - from.Q).norm();
-    if (!(way > jump * cell)) continue;
     const double at_ends = std::max(deepest_point(r, from, phase, u).cells, deepest_point(r, to, phase, u).cells);
-    const int looks = static_cast<int>(std::min(most, std::ceil(way / (apart * cell))));
+    const int looks = static_cast<int>(std::min(most, std::ceil(way_between(from, to) / (apart * least_cell_))));
     Intrusion deepest;
     for (int look = 1; look < looks; ++look) {
       Intrusion here = deepest_point(r, on_the_way(from, to, look * (1.0 / looks)), phase, u);

@@ -40,6 +40,8 @@ class TouchFinder {
   Position load(double t) const;
   bool touches(std::size_t body) const { return touches_[body] != 0; }
   RigidPlacement<N> placement(double t) const { return motion_.placement(t); }
+  /// Whether its formulas depend on t.
+  bool moves() const { return motion_.moves(); }
   /// As RigidMotion::move_on(). True if there is a way to go.
   bool move_on(double start, double share) {
     motion_.move_on(start, share);

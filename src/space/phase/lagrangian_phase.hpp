@@ -194,6 +194,8 @@ class PhaseSupports {
   virtual std::vector<WeakSupport> weak_supports(double t, ConstVec u) const = 0;
   /// What the rigid bodies of the scene exert at (t, u), in their order, followed by its contacts between bodies.
   virtual std::vector<ContactReport> contacts(double t, ConstVec u) const = 0;
+  /// Whether a pressure acts in any of them at (t, u).
+  virtual bool are_touched(double t, ConstVec u) const = 0;
   /// How well the multipliers of contact fit at (t, u).
   virtual ContactState contact_state(double t, ConstVec u) const = 0;
   /// What lies in rigid bodies without being felt, at (t, u): at most one place of a kind for each.

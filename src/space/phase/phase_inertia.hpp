@@ -58,8 +58,17 @@ class PhaseInertia {
   const std::vector<double>& node_mass() const { return of_functions_.mass(); }
   /// What the boundary conditions use of the phase.
   PhaseParts<dim> parts() const {
-    return {frame_.grid,   frame_.functions, frame_.body.points, frame_.weights, frame_.corner_sum,
-            frame_.held(), frame_.dofs(),    node_mass(),        *mass_,         frame_.remembers,
+    return {frame_.grid,
+            frame_.functions,
+            frame_.body.points,
+            frame_.weights,
+            frame_.corner_sum,
+            frame_.held(),
+            frame_.dofs(),
+            node_mass(),
+            *mass_,
+            frame_.remembers,
+            frame_.is_of_small_strain(),
             frame_.gone};
   }
   void archive(const StateArchive& state) { of_functions_.archive(state); }

@@ -34,6 +34,9 @@ class PhaseSupportsOf final : public PhaseSupports {
     if (!all_.conditions.may_touch()) return {};
     return all_.conditions.contacts(t, spread(t, u)->u.data());
   }
+  bool are_touched(double t, ConstVec u) const override {
+    return all_.conditions.may_touch() && all_.conditions.are_touched(t, spread(t, u)->u.data());
+  }
   ContactState contact_state(double t, ConstVec u) const override {
     if (!all_.conditions.may_touch()) return {};
     return all_.conditions.contact_state(all_.inertia.parts(), t, spread(t, u)->u.data());
@@ -43,7 +46,7 @@ class PhaseSupportsOf final : public PhaseSupports {
     return all_.conditions.intrusions(all_.inertia.parts(), t, spread(t, u)->u.data());
   }
   std::vector<Intrusion> passages(double before, double t, ConstVec u) const override {
-    if (!all_.conditions.may_touch()) return {};
+    if (!all_.conditions.rigid_bodies_jump(before, t)) return {};  // as in all steps but few
     return all_.conditions.passages(all_.inertia.parts(), before, t, spread(t, u)->u.data());
   }
   bool is_rigid_body_ahead(std::size_t body, ConstVec direction, double t, ConstVec u) const override {

@@ -148,7 +148,8 @@ class LoadedBlock {
     for (const auto& load : loads_) load->begin_phase(parts(), constant_force_);
   }
   PhaseParts<2> parts() const {
-    return {grid_, functions_, body_.points, weights_, corner_sum_, held_, *dofs_, node_mass_, *mass_, false, gone_};
+    return {grid_,  functions_, body_.points, weights_, corner_sum_, held_,
+            *dofs_, node_mass_, *mass_,       false,    false,       gone_};
   }
 
   const Scene scene_;
