@@ -60,7 +60,7 @@ Summary load(const Pressed& by, const std::vector<std::string>& settings = {}) {
 }  // namespace
 
 TEST_CASE("a body is pressed by a smooth rigid one in no more than 2.2 times the evaluations of the same traction") {
-  // 1.3, 1.3, 1.3 and 1.9. Beside the corner of a footing multipliers of cells instead of functions take 2.3 and 2.2,
+  // 1.2, 1.2, 1.3 and 1.8. Beside the corner of a footing multipliers of cells instead of functions take 2.3 and 2.2,
   // by updates at each tenth of the residual 5.4 and 4.5.
   for (const Pressed& by : pressed) {
     CAPTURE(by.name);
@@ -73,9 +73,9 @@ TEST_CASE("a body is pressed by a smooth rigid one in no more than 2.2 times the
   }
 }
 
-TEST_CASE("a motion with critical damping is pressed in no more than 3.2 times the evaluations of the same traction") {
-  // 2.7, 2.4, 2.5 and 2.9; 2.8, 3.3, 5.8 and 6.9 by multipliers of cells. Of these 0.6 are the period for which balance
-  // has to last where a body is not linear.
+TEST_CASE("a motion with critical damping is pressed in no more than 2.2 times the evaluations of the same traction") {
+  // 1.7, 2.0, 2.1 and 1.9; 0.6 more if balance has to last for a period, and 0.3 if the first update waits for a residual
+  // of 1e-2.
   for (const Pressed& by : pressed) {
     CAPTURE(by.name);
     const Summary touched = press(by, {"damping.strategy=viscous"});
@@ -83,7 +83,7 @@ TEST_CASE("a motion with critical damping is pressed in no more than 3.2 times t
     REQUIRE(touched.status == RunStatus::equilibrium);
     REQUIRE(loaded.status == RunStatus::equilibrium);
     CHECK(touched.rhs_evaluations > loaded.rhs_evaluations);
-    CHECK(touched.rhs_evaluations <= 32 * loaded.rhs_evaluations / 10);
+    CHECK(touched.rhs_evaluations <= 22 * loaded.rhs_evaluations / 10);
   }
 }
 

@@ -127,20 +127,24 @@ double dwell_of(const SetUpState& set_up) {
 }
 
 // The error bound that equilibrium takes: what the problem asks for; beside its residual one by default, which a
-// residual that is small only beside the stiffest part's forces does not pass.
+// residual that is small only beside the stiffest part's forces does not pass. With contact half of it, as its
+// multipliers may be off by as much as the body.
 double distance_goal_of(const SetUpState& set_up) {
   constexpr double default_goal = 1e-3;
   const StopSpec& stop = set_up.problem.stop;
   const bool is_known = (set_up.model.omega_1 && !set_up.plan.moves_on) || set_up.model.learns_omega_1;
-  return stop.residual > 0 && is_known && !stop.distance.is_asked() ? default_goal : stop.distance.value();
+  if (!(stop.residual > 0 && is_known) || stop.distance.is_asked()) return stop.distance.value();
+  return set_up.problem.may_touch() ? default_goal / 2 : default_goal;
 }
 
 // The bound ‖u − u*‖ ≤ ‖M⁻¹Q‖/ω₁² holds at every moment in a linear body under steady loads: with the kinetic energy
-// small as well, no later moment can be further off.
+// small as well, no later moment can be further off. Smooth contact with a body that supports hold leaves it so: its
+// potential is convex, and what is nearly in balance is near the rest.
 bool residual_bounds_error(const SetUpState& set_up) {
   const Model& model = set_up.model;
-  return model.omega_1 && !model.phase->info().nonlinear && !set_up.plan.moves_on && !loads_vary(set_up.problem) &&
-         !model.phase->contact();
+  const bool holds_by_itself = !model.phase->info().may_touch || model.phase->shape().free_parts().empty();
+  return model.omega_1 && !set_up.plan.nonlinear_law && !set_up.plan.moves_on && !loads_vary(set_up.problem) &&
+         !model.phase->contact() && !set_up.problem.rubs() && holds_by_itself;
 }
 
 void choose_way_to_rest(SetUpState& set_up) {

@@ -1,17 +1,17 @@
 // The multipliers of contact: a body that is nearly in balance takes its contact pressures as
 // multipliers, and goes on to where nothing penetrates.
 //
-// Taken too early, in the first overshoot of the motion, they would be those of another state; and each time they
-// change, the body is out of balance again, by what it will have to go on. So they are taken first at a residual of
-// 1e-2, and then each time that half of what the last update put out of balance is left: body and pressures come to
-// their places together. With friction, which remembers each state on the way, they are taken at a tenth of the last
-// residual, down to the one that the scene asks for. They are taken at least twice, until what the grid's functions can
-// tell of a penetration is less than a thousandth of a cell, and until another update would change what the body feels
-// of them by no more than thirty times the residual that the scene asks for. At the edge of a contact a piece may open
-// and close from one update to the next; once they come no nearer, there are no more. Under loads that still change
-// they follow once in a while, and after a longer while even if the body is not near balance: in a motion that is never
-// quiet the penalty alone would press else, and give way. There is no end to those, and they are taken evenly: what
-// swings at the moment of an update is not to stay as a pressure.
+// Each time they change, the body is out of balance again, by what it will have to go on. So they are taken first at a
+// residual of 0.1, and then each time that half of what the last update put out of balance is left: body and pressures
+// come to their places together. Friction remembers each state on the way, and the first overshoot of the motion is one
+// of another state: with it they are taken first at a residual of 1e-2, and then at a tenth of the last residual, down
+// to the one that the scene asks for. They are taken at least twice, until what the grid's functions can tell of a
+// penetration is less than a thousandth of a cell, and until another update would change what the body feels of them by
+// no more than thirty times the residual that the scene asks for. At the edge of a contact a piece may open and close
+// from one update to the next; once they come no nearer, there are no more. Under loads that still change they follow
+// once in a while, and after a longer while even if the body is not near balance: in a motion that is never quiet the
+// penalty alone would press else, and give way. There is no end to those, and they are taken evenly: what swings at the
+// moment of an update is not to stay as a pressure.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,7 +32,7 @@ class Multipliers : public Watcher {
         least_(run.scene.stop.residual > 0 ? run.scene.stop.residual : least_by_default),
         largest_change_(std::clamp(30 * least_, 1e-9, 1e-3)),
         between_(run.model.dwell / 4),
-        goal_(std::max(first, least_)) {
+        goal_(std::max(remembers_ ? quiet : early, least_)) {
     run.contact_settled = !touches_;
   }
 
@@ -40,8 +40,13 @@ class Multipliers : public Watcher {
     if (!touches_) return;
     const bool loads_stay = run.loads_stay();
     if (!is_due(run, loads_stay)) return;
-    const LagrangianPhase& phase = *run.model.phase;
-    const ContactState state = phase.supports().contact_state(run.t, run.motion->u());
+    const PhaseSupports& supports = run.model.phase->supports();
+    ContactState state;  // how well the multipliers fit is asked for where that may end them
+    if (loads_stay) {
+      state = supports.contact_state(run.t, run.motion->u());
+    } else {
+      state.touches = supports.are_touched(run.t, run.motion->u());
+    }
     const bool fits = !state.touches || (updates_ >= fewest && (is_small(state) || comes_no_nearer(state)));
     const bool ends = loads_stay && (fits || updates_ >= most);
     run.contact_settled = ends && state.balanced;
@@ -106,7 +111,7 @@ class Multipliers : public Watcher {
   }
 
  private:
-  static constexpr double first = 1e-2, least_by_default = 1e-6, largest_misfit = 1e-3;
+  static constexpr double early = 0.1, quiet = 1e-2, least_by_default = 1e-6, largest_misfit = 1e-3;
   static constexpr double half = 0.5;
   static constexpr long fewest = 2, most = 200;  // updates
   static constexpr long stride = 8;              // [steps] between two looks at the residual of a motion
@@ -159,7 +164,7 @@ class Multipliers : public Watcher {
     if (loads_stay) return run.motion->known_residual(run.t) <= goal_;
     constexpr double patience = 4;
     if (run.t < last_ + between_) return false;
-    return run.t >= last_ + patience * between_ || run.motion->known_residual(run.t) <= first;
+    return run.t >= last_ + patience * between_ || run.motion->known_residual(run.t) <= quiet;
   }
 
   bool touches_, remembers_;  // remembers_: with friction
