@@ -102,6 +102,7 @@ struct MaterialSpec {  // [material.<name>]
   bool undrained = false;                 // saturated with water that cannot flow
   std::optional<double> water_modulus{};  // K_w [Pa]; empty: such that the undrained Poisson's ratio is 0.495
   double porosity = 1;                    // n, beside water_modulus
+  bool undrained_dilatancy = false;       // whether it may dilate all the same, and become stronger without end
   // For a law from a shared library:
   std::filesystem::path library{};    // its file
   std::vector<double> props{};        // its constants

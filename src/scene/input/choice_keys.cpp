@@ -108,6 +108,10 @@ std::vector<TableInfo> material_tables(const Catalogue& catalogue) {
           {.range = kPositive, .unit = "Pa", .fallback = "such that the undrained Poisson's ratio is 0.495"}));
       of_law.push_back(key_of<MaterialSpec>("porosity", &MaterialSpec::porosity, "share of the water in the volume",
                                             {.range = {0, 1, false, true}, .unit = "1"}));
+      of_law.push_back(key_of<MaterialSpec>("undrained_dilatancy", &MaterialSpec::undrained_dilatancy,
+                                            "undrained ground with psi > 0: what dilates draws the water apart, and "
+                                            "becomes stronger without end",
+                                            {}));
     }
     if (law.from_library) {
       of_law.push_back(key_of<MaterialSpec>("library", &MaterialSpec::library,

@@ -119,7 +119,7 @@ void check_dilation(SceneCheck& check, const MaterialSpec& material) {
 
 void check_water(SceneCheck& check, const MaterialSpec& material) {
   const auto key = [&](const char* name) { return fmt::format("material.{}.{}", material.name, name); };
-  for (const char* name : {"water_modulus", "porosity"})
+  for (const char* name : {"water_modulus", "porosity", "undrained_dilatancy"})
     check.wrong_if(!material.undrained && check.written(key(name)), key(name), "goes with undrained = true");
   check.wrong_if(material.undrained && check.written(key("porosity")) && !material.water_modulus, key("porosity"),
                  "goes with water_modulus");
@@ -133,9 +133,9 @@ void check_water(SceneCheck& check, const MaterialSpec& material) {
   if (const auto found = material.parameters.find("psi"); found != material.parameters.end()) psi = found->second;
   for (const StrengthRow& row : material.softening) psi = std::max(psi, row.psi);
   check.wrong_if(
-      psi > 0, key("undrained"),
+      psi > 0 && !material.undrained_dilatancy, key("undrained"),
       "does not go with dilatancy, which would draw the water apart and make the ground stronger without end; "
-      "expected psi = 0, not {}",
+      "expected psi = 0, not {}, or undrained_dilatancy = true",
       psi);
 }
 

@@ -251,7 +251,7 @@ std::optional<std::string> hourglass_note(const Problem& problem) {
 
 // Where strength falls, flow gathers in bands as wide as a cell, in which it falls after the less displacement the
 // narrower they are.
-std::vector<std::string> softening_notes(const Problem& problem) {
+std::vector<std::string> ground_notes(const Problem& problem) {
   std::vector<std::string> notes;
   for (const auto& [name, material] : problem.materials) {
     const auto value = [&parameters = material.parameters](const char* key) {
@@ -260,9 +260,11 @@ std::vector<std::string> softening_notes(const Problem& problem) {
     };
     bool falls =
         value("softening_strain") > 0 && (value("c_residual") < value("c") || value("phi_residual") < value("phi"));
+    bool dilates = value("psi") > 0;
     StrengthRow before{.plastic_strain = 0, .c = value("c"), .phi = value("phi"), .psi = value("psi")};
     for (const StrengthRow& row : material.softening) {
       falls = falls || row.c < before.c || row.phi < before.phi;
+      dilates = dilates || row.psi > 0;
       before = row;
     }
     const bool is_used = std::ranges::find(problem.bodies, name, &BodySpec::material) != problem.bodies.end();
@@ -271,6 +273,11 @@ std::vector<std::string> softening_notes(const Problem& problem) {
           "{} softens, and flow gathers in bands as wide as a cell: what comes out depends on the grid; expected "
           "material.{}.softening_length, the width of the bands to which its plastic strains belong",
           name, name));
+    if (material.undrained && dilates && is_used)
+      notes.push_back(fmt::format(
+          "{} dilates though no water flows: the water that it draws apart presses its grains together, and it becomes "
+          "stronger without end; no limit load or factor of safety of it is one of the ground",
+          name));
   }
   return notes;
 }
@@ -280,7 +287,7 @@ std::vector<std::string> accuracy_notes(const Problem& problem, const Lagrangian
   std::ranges::move(support_notes(problem), std::back_inserter(notes));
   std::ranges::move(phase_notes(problem, phase), std::back_inserter(notes));
   std::ranges::move(damping_notes(problem, phase), std::back_inserter(notes));
-  std::ranges::move(softening_notes(problem), std::back_inserter(notes));
+  std::ranges::move(ground_notes(problem), std::back_inserter(notes));
   std::ranges::move(thin_rigid_notes(problem), std::back_inserter(notes));
   if (std::optional<std::string> note = locking_note(problem)) notes.push_back(std::move(*note));
   if (std::optional<std::string> note = slender_cells_note(problem)) notes.push_back(std::move(*note));

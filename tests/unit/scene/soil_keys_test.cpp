@@ -97,6 +97,9 @@ TEST_CASE("soil that cannot be is refused by name") {
   }
   CHECK_THAT(scenes::refusal("stable_slope", {soil + "undrained=true", soil + "psi=5"}),
              Catch::Contains("undrained: does not go with dilatancy"));
+  const auto asked =
+      scenes::load("stable_slope", {soil + "undrained=true", soil + "psi=5", soil + "undrained_dilatancy=true"});
+  CHECK(asked.materials.at("soil").undrained_dilatancy);
   CHECK_THAT(scenes::refusal("stable_slope", {soil + "c=1e3*(11 - y)", soil + "softening=[[0.1, 1e3, 20, 0]]"}),
              Catch::Contains("softening: does not go with a cohesion that is a formula"));
   CHECK_THAT(scenes::refusal("column", {"material.soil.undrained=true"}), Catch::Contains("unknown key 'undrained'"));

@@ -4,6 +4,7 @@
 #include <stillpoint/undrained.hpp>
 
 #include <cmath>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -75,6 +76,24 @@ TEST_CASE("undrained triaxial compression ends at the strength and the pore pres
   const double q = path.stress()[0] - path.stress()[1];
   CHECK(q == Approx(130392.30484541324).epsilon(1e-3));
   CHECK(pore_pressure(path) == Approx(43464.10161513775).epsilon(2e-3));
+}
+
+TEST_CASE("undrained ground that dilates becomes stronger at the rate that its skeleton is compressed at") {
+  // dε₁ = −dε₃ = dε, dε₂ = 0, and the plastic parts λ (1 + sin ψ), 0 and −λ (1 − sin ψ), with Lamé's Λ and G:
+  //   λ = G dε/(G + sin φ sin ψ (G + Λ)),   d(σ₁ − σ₃) = 4 G (dε − λ)
+  const double G = 12e6 / 2.6, Lambda = 12e6 * 0.3 / (1.3 * 0.4);
+  for (const double psi : {0.0, 10.0, 30.0}) {
+    CAPTURE(psi);
+    SaturatedPath<plane_strain> path({.soil = {.E = 12e6, .nu = 0.3, .c = 5e3, .phi = 30, .psi = psi}},
+                                     {-1e5, -1e5, -1e5, 0});
+    const auto q_at = [&](double strain) {
+      path.go({std::expm1(strain), 0, 0, std::expm1(-strain)}, 100);
+      return path.stress()[0] - path.stress()[1];
+    };
+    const double before = q_at(0.01), slope = (q_at(0.012) - before) / 0.002;
+    const double factor = 0.5 * std::sin(psi * std::numbers::pi / 180) * (G + Lambda);
+    CHECK(slope == Approx(4 * G * factor / (G + factor)).epsilon(1e-6).margin(1));  // Pa, of G = 4.6e6
+  }
 }
 
 TEMPLATE_TEST_CASE_SIG("undrained moduli are the derivative of the total stress, and the elastic ones are symmetric",
