@@ -8,12 +8,17 @@ PATH = "overshoot|overshot|inertia carried|out of balance|load_steps|history"
 
 
 def ground(r):
+    """Both laws have the same strength in plane strain, if the cone dilates as it rubs or does not rub."""
     phi = r.choice([0, 0, 20, 30])
     E = log_uniform(r, 1e6, 1e9)
-    return {
+    soil = {
         "law": "drucker-prager", "E": E, "nu": r.choice([0.2, 0.3, 0.4, 0.49]), "rho": log_uniform(r, 500, 3000),
         "phi": phi, "psi": r.choice([0, phi]), "c": rounded(E * log_uniform(r, 1e-5, 1e-3)), "cone": "plane-strain",
     }  # fmt: skip
+    if r.random() < 0.5:
+        del soil["cone"]
+        soil["law"] = "mohr-coulomb"
+    return soil
 
 
 def strength(m):
@@ -46,7 +51,7 @@ def block_of_ground(r, all_ways=False):
     """Below its strength the block is elastic. Drawn out beyond it, it never rests, by no law that flows in time
     either; pressed beyond it, it may spread until its face has grown enough for a load per undeformed area."""
     m, viscous = ground(r), r.random() < 0.4
-    if viscous:
+    if viscous and m["law"] == "drucker-prager":
         m["fluidity"] = rounded(10 ** r.uniform(-12, -4))
     kind, drawn = r.choice(["below", "beyond", "beyond"]), r.random() < 0.5
     share = uniform(r, 0.2, 0.6) if kind == "below" else uniform(r, 1.15, 3)
@@ -54,7 +59,7 @@ def block_of_ground(r, all_ways=False):
     most = 2 * m["c"] * math.cos(phi) / (1 + math.sin(phi)) if drawn else strength(m)
     q = rounded(-share * most if drawn else share * most)
     scene, h = loaded(r, m, q)
-    of = "viscoplastic" if viscous else "plastic"
+    of = "viscoplastic" if "fluidity" in m else "plastic"
     done = "drawn" if drawn else "pressed"
     scene["title"] = f"a block of {of} ground, phi = {m['phi']}, {done} by {share} of its strength"
     ways = ways_of(r, GROUND_WAYS, all_ways)

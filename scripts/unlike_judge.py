@@ -112,18 +112,31 @@ def contact_fault(unlike, summary):
     return ""
 
 
-def beyond_strength(unlike, ended):
+def beyond_cone(m, xx, yy, zz, xy):
     """The largest f/(ξ c), of the cone that matches Mohr and Coulomb's law in plane strain, tension positive:
     f = √J₂ + η p − ξ c,   η = sin φ/(√(1 − η̄²/3) + (η̄/3) sin φ),   η̄ = 3 sin ψ/√(9 + 3 sin² ψ),   ξ = η cot φ"""
-    m = unlike.scene["material"]["m"]
     phi, psi = np.radians(m["phi"]), np.radians(m["psi"])
     of_flow = 3 * np.sin(psi) / np.sqrt(9 + 3 * np.sin(psi) ** 2)
     over = np.sqrt(1 - of_flow**2 / 3) + of_flow / 3 * np.sin(phi)
     eta, xi = np.sin(phi) / over, np.cos(phi) / over
-    xx, yy, zz, xy = (ended.last[f"stress_{name}"] for name in ("xx", "yy", "zz", "xy"))
     p = (xx + yy + zz) / 3
     J2 = ((xx - p) ** 2 + (yy - p) ** 2 + (zz - p) ** 2) / 2 + xy**2
-    return float(((np.sqrt(J2) + eta * p) / (xi * m["c"])).max() - 1)
+    return (np.sqrt(J2) + eta * p) / (xi * m["c"]) - 1
+
+
+def beyond_pyramid(m, xx, yy, zz, xy):
+    """f/(2 c cos φ),   f = (σ₁ − σ₃) + (σ₁ + σ₃) sin φ − 2 c cos φ"""
+    phi = np.radians(m["phi"])
+    mean, radius = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
+    largest, least = np.maximum(mean + radius, zz), np.minimum(mean - radius, zz)
+    return (largest - least + (largest + least) * np.sin(phi)) / (2 * m["c"] * np.cos(phi)) - 1
+
+
+def beyond_strength(unlike, ended):
+    """The largest of the points."""
+    m = unlike.scene["material"]["m"]
+    beyond = beyond_pyramid if m["law"] == "mohr-coulomb" else beyond_cone
+    return float(beyond(m, *(ended.last[f"stress_{name}"] for name in ("xx", "yy", "zz", "xy"))).max())
 
 
 def wrong_ground(unlike, ended):
