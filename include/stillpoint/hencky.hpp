@@ -35,6 +35,16 @@ class Hencky {
     }
   }
 
+  /// Whether the strain at H is so small that its logarithm takes no root of a matrix. What first_piola() and rate()
+  /// give, first_piola_of_small() and rate_of_small() then give as well, to rounding, and faster.
+  bool is_small(const Gradient<S>& H) const requires(S == StressState::space) {
+    return is_near_zero(left_strain(displacement_gradient<S>(H)));
+  }
+  Gradient<S> first_piola_of_small(const Gradient<S>& H) const requires(S == StressState::space) {
+    const LogStrain ln = log_strain(H);
+    return gradient_part<S>(stress(ln.small_strain(), ln.J) * transpose(inverse(deformation_gradient<S>(H))));
+  }
+
   // σ = τ/J; a free side or face has contracted by J = e^(tr e)
   Stress<S> cauchy(const Gradient<S>& H) const {
     if constexpr (dimensions(S) == 1) {
@@ -66,12 +76,17 @@ class Hencky {
     if constexpr (dimensions(S) == 1) {
       return {moduli(H)[0] * dH[0]};
     } else {
-      const Tensor F_inverse = inverse(deformation_gradient<S>(H)), l = displacement_gradient<S>(dH) * F_inverse;
-      const LogStrain ln = log_strain(H);
-      const auto e = ln.strain_and_rate(l);
-      return gradient_part<S>((stress(e.rate, trace(l)) - stress(e.strain, ln.J) * transpose(l)) *
-                              transpose(F_inverse));
+      return rate_of(
+          H, dH,
+          [](const LogStrain& ln, const Tensor& l) __attribute__((always_inline)) { return ln.strain_and_rate(l); });
     }
+  }
+  [[gnu::always_inline]] Gradient<S> rate_of_small(const Gradient<S>& H, const Gradient<S>& dH) const
+      requires(S == StressState::space) {
+    return rate_of(
+        H, dH, [](const LogStrain& ln, const Tensor& l) __attribute__((always_inline)) {
+          return ln.small_strain_and_rate(l);
+        });
   }
 
  private:
@@ -79,6 +94,15 @@ class Hencky {
   using LogStrain = LogStrainOf<S>;
 
   static LogStrain log_strain(const Gradient<S>& H) { return LogStrain(displacement_gradient<S>(H)); }
+
+  template <class StrainAndRateAt>
+  [[gnu::always_inline]] Gradient<S> rate_of(const Gradient<S>& H, const Gradient<S>& dH,
+                                             const StrainAndRateAt& strain_and_rate) const {
+    const Tensor F_inverse = inverse(deformation_gradient<S>(H)), l = displacement_gradient<S>(dH) * F_inverse;
+    const LogStrain ln = log_strain(H);
+    const auto e = strain_and_rate(ln, l);
+    return gradient_part<S>((stress(e.rate, trace(l)) - stress(e.strain, ln.J) * transpose(l)) * transpose(F_inverse));
+  }
 
   // 2 μ e + λ tr(e) I, without the stress across a free face
   Tensor stress(const Tensor& e, double trace_e) const {

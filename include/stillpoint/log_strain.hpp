@@ -95,7 +95,7 @@ struct PlaneLogStrain {
 template <class Number>
 [[gnu::always_inline]] inline SpaceTensorOf<Number> root_of_unit_plus(const SpaceTensorOf<Number>& B) {
   using std::sqrt;
-  const SpaceTensorOf<Number> C = unit_plus(B), C2 = C * C;
+  const SpaceTensorOf<Number> C = unit_plus(B), C2 = symmetric_product(C, C);
   const Number I1 = trace(C), I2 = (I1 * I1 - trace(C2)) / 2, i3 = sqrt(determinant(C));
   const auto substituted = [&](const Number& i1) { return sqrt(I1 + 2 * sqrt(I2 + 2 * i3 * i1)); };
   const auto newton = [&](const Number& i1) {
@@ -105,26 +105,37 @@ template <class Number>
   const Number upper = sqrt(3 * I1);
   const Number i1 = newton(newton(newton(substituted(substituted(upper))))), i2 = (i1 * i1 - I1) / 2;
   const SpaceTensorOf<Number> Y = (1 / (i1 * i2 - i3)) * sphere_plus(i1 * i3, (i1 * i1 - i2) * C - C2);
-  return B * inverse(unit_plus(Y));
+  return symmetric_product(B, symmetric_inverse(unit_plus(Y)));
 }
 
-/// The product with Z of the series I/(2n + 1) + Z²/(2n + 3) + …, up to the power 16 of Z if n = 0.
-template <int n, class Tensor>
-[[gnu::always_inline]] inline Tensor times_artanh_series(const Tensor& Z, const Tensor& Z2) {
-  if constexpr (n == 8) {
-    return (1.0 / (2 * n + 1)) * Z;
-  } else {
-    return (1.0 / (2 * n + 1)) * Z + times_artanh_series<n + 1>(Z, Z2) * Z2;
-  }
+/// a + b W + c W²
+template <class Number>
+[[gnu::always_inline]] inline SpaceTensorOf<Number> quadratic(double a, double b, double c,
+                                                              const SpaceTensorOf<Number>& W,
+                                                              const SpaceTensorOf<Number>& W2) {
+  return sphere_plus(a, b * W + c * W2);
 }
 
-/// The logarithm of I + X for an X below a seventh, where the series is short:
+/// The logarithm of I + X for a symmetric X below a fifth, where the series is short:
 ///
-///   ln(I + X) = 2 artanh Z,   Z = X (2 I + X)⁻¹,   artanh Z = Z + Z³/3 + Z⁵/5 + …
+///   ln(I + X) = 2 artanh Z,   Z = X (2 I + X)⁻¹,   artanh Z = Z (I + W/3 + W²/5 + … + W⁸/17),   W = Z² < 1/80,
+///
+/// the sum as (1, 1/3, 1/5) + W³ ((1/7, 1/9, 1/11) + W³ (1/13, 1/15, 1/17)) [Paterson and Stockmeyer 1973].
 template <class Number>
 [[gnu::always_inline]] inline SpaceTensorOf<Number> log_near_unit(const SpaceTensorOf<Number>& X) {
-  const SpaceTensorOf<Number> Z = X * inverse(sphere_plus(2.0, X));
-  return 2.0 * times_artanh_series<0>(Z, Z * Z);
+  const SpaceTensorOf<Number> Z = symmetric_product(X, symmetric_inverse(sphere_plus(2.0, X)));
+  const SpaceTensorOf<Number> W = symmetric_product(Z, Z), W2 = symmetric_product(W, W), W3 = symmetric_product(W, W2);
+  const SpaceTensorOf<Number> last = quadratic(1.0 / 13, 1.0 / 15, 1.0 / 17, W, W2),
+                              middle = quadratic(1.0 / 7, 1.0 / 9, 1.0 / 11, W, W2) + symmetric_product(W3, last);
+  return 2.0 * symmetric_product(Z, quadratic(1.0, 1.0 / 3, 1.0 / 5, W, W2) + symmetric_product(W3, middle));
+}
+
+/// Whether that holds for X: by its Frobenius norm, which no eigenvalue exceeds.
+template <class Number>
+[[gnu::always_inline]] inline bool is_near_zero(const SpaceTensorOf<Number>& X) {
+  constexpr double small = 0.2;
+  const auto square = [](const Number& x) { return value_of(x) * value_of(x); };
+  return square(X.xx) + square(X.yy) + square(X.zz) + 2 * (square(X.xy) + square(X.yz) + square(X.zx)) < small * small;
 }
 
 /// The logarithm ln(I + B), with B as above. Four square roots bring stretches between 0.1 and 10 to within a seventh
@@ -137,10 +148,7 @@ template <class Number>
 /// The same to rounding; where B is small, without a root. It branches, and is for one point at a time.
 template <class Number>
 SpaceTensorOf<Number> log_of_one(const SpaceTensorOf<Number>& B) {
-  constexpr double small = 0.1;  // of the Frobenius norm
-  const auto square = [](const Number& x) { return value_of(x) * value_of(x); };
-  const double norm2 = square(B.xx) + square(B.yy) + square(B.zz) + 2 * (square(B.xy) + square(B.yz) + square(B.zx));
-  return norm2 < small * small ? log_near_unit(B) : log_of_unit_plus(B);
+  return is_near_zero(B) ? log_near_unit(B) : log_of_unit_plus(B);
 }
 
 struct SpaceLogStrain {
@@ -151,19 +159,19 @@ struct SpaceLogStrain {
       : B(left_strain(H)), J(logarithm(determinant(unit_plus(H)), change_of_volume(H, cofactor(H)))) {}
 
   SpaceTensor strain() const { return 0.5 * log_of_unit_plus(B); }
+  /// The same without a root, where is_small().
+  SpaceTensor small_strain() const { return 0.5 * log_near_unit(B); }
+  bool is_small() const { return is_near_zero(B); }
   /// The strain of one point at a time.
   SpaceTensor strain_of_one() const { return 0.5 * log_of_one(B); }
 
   /// The strain, and its rate for δb = l b + b lᵀ.
   [[gnu::always_inline]] StrainAndRate<SpaceTensor> strain_and_rate(const SpaceTensor& l) const {
-    const SpaceTensor half = l + l * B, db = half + transpose(half);
-    const Directional xx(B.xx, db.xx), yy(B.yy, db.yy), zz(B.zz, db.zz), xy(B.xy, db.xy), yz(B.yz, db.yz),
-        zx(B.zx, db.zx);
-    const auto ln = log_of_unit_plus(SpaceTensorOf<Directional>{xx, xy, zx, xy, yy, yz, zx, yz, zz});
-    return {0.5 * SpaceTensor{ln.xx.value, ln.xy.value, ln.xz.value, ln.yx.value, ln.yy.value, ln.yz.value, ln.zx.value,
-                              ln.zy.value, ln.zz.value},
-            0.5 * SpaceTensor{ln.xx.rate, ln.xy.rate, ln.xz.rate, ln.yx.rate, ln.yy.rate, ln.yz.rate, ln.zx.rate,
-                              ln.zy.rate, ln.zz.rate}};
+    return halves(log_of_unit_plus(B_and_rate(l)));
+  }
+  /// The same without a root, where is_small().
+  [[gnu::always_inline]] StrainAndRate<SpaceTensor> small_strain_and_rate(const SpaceTensor& l) const {
+    return halves(log_near_unit(B_and_rate(l)));
   }
 
   /// The strain rates δe for δb = l b + b lᵀ, for any number of l: Σ_k ∂e/∂b_k δb_k, b_k = b_xx, b_yy, b_zz, b_xy,
@@ -197,6 +205,20 @@ struct SpaceLogStrain {
     std::array<SpaceTensor, 6> slopes_;  // ∂e/∂b_k
   };
   Rate rate() const { return Rate(B); }
+
+ private:
+  [[gnu::always_inline]] SpaceTensorOf<Directional> B_and_rate(const SpaceTensor& l) const {
+    const SpaceTensor half = l + l * B, db = half + transpose(half);
+    const Directional xx(B.xx, db.xx), yy(B.yy, db.yy), zz(B.zz, db.zz), xy(B.xy, db.xy), yz(B.yz, db.yz),
+        zx(B.zx, db.zx);
+    return {xx, xy, zx, xy, yy, yz, zx, yz, zz};
+  }
+  [[gnu::always_inline]] static StrainAndRate<SpaceTensor> halves(const SpaceTensorOf<Directional>& ln) {
+    return {0.5 * SpaceTensor{ln.xx.value, ln.xy.value, ln.xz.value, ln.yx.value, ln.yy.value, ln.yz.value, ln.zx.value,
+                              ln.zy.value, ln.zz.value},
+            0.5 * SpaceTensor{ln.xx.rate, ln.xy.rate, ln.xz.rate, ln.yx.rate, ln.yy.rate, ln.yz.rate, ln.zx.rate,
+                              ln.zy.rate, ln.zz.rate}};
+  }
 };
 
 /// The logarithmic strain of H = F − I: strain(), rate()(l) for δF = l F, and J = ln det F.

@@ -69,6 +69,14 @@ constexpr SpaceTensorOf<N> turned_deviator(const SpaceTensorOf<N>& R, const Spac
           zx = Bxx * R.zx + Bxy * R.zy + Bxz * R.zz;
   return {xx, xy, zx, xy, yy, yz, zx, yz, -(xx + yy)};
 }
+/// The product of symmetric tensors that commute, as functions of one tensor do, which is symmetric too.
+template <class N>
+constexpr SpaceTensorOf<N> symmetric_product(const SpaceTensorOf<N>& A, const SpaceTensorOf<N>& B) {
+  const N xy = A.xx * B.xy + A.xy * B.yy + A.zx * B.yz, yz = A.xy * B.zx + A.yy * B.yz + A.yz * B.zz,
+          zx = A.xx * B.zx + A.xy * B.yz + A.zx * B.zz;
+  return {A.xx * B.xx + A.xy * B.xy + A.zx * B.zx, xy, zx, xy, A.xy * B.xy + A.yy * B.yy + A.yz * B.yz, yz, zx, yz,
+          A.zx * B.zx + A.yz * B.yz + A.zz * B.zz};
+}
 /// cof A = det A A⁻ᵀ
 template <class N>
 constexpr SpaceTensorOf<N> cofactor(const SpaceTensorOf<N>& A) {
@@ -90,6 +98,14 @@ template <class N>
 constexpr SpaceTensorOf<N> inverse(const SpaceTensorOf<N>& A) {
   const SpaceTensorOf<N> c = cofactor(A);
   return (1 / (A.xx * c.xx + A.xy * c.xy + A.xz * c.xz)) * transpose(c);
+}
+/// The inverse of a symmetric tensor.
+template <class N>
+constexpr SpaceTensorOf<N> symmetric_inverse(const SpaceTensorOf<N>& A) {
+  const N xx = A.yy * A.zz - A.yz * A.yz, xy = A.yz * A.zx - A.xy * A.zz, zx = A.xy * A.yz - A.yy * A.zx,
+          yz = A.xy * A.zx - A.xx * A.yz;
+  return (1 / (A.xx * xx + A.xy * xy + A.zx * zx)) *
+         SpaceTensorOf<N>{xx, xy, zx, xy, A.xx * A.zz - A.zx * A.zx, yz, zx, yz, A.xx * A.yy - A.xy * A.xy};
 }
 
 }  // namespace stillpoint

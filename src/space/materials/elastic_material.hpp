@@ -43,18 +43,22 @@ class ElasticMaterial : public LawMaterialBase<Law> {
   [[gnu::flatten]] double stress(Block& block, const double* V, double /*dt*/, double* /*trial*/) const override {
     const Law law = law_;
     if (!moved()) {
-      return loop(
-          block, V,
-          [ law, &block ](std::size_t q) __attribute__((always_inline)) { return law.first_piola(block.H_at(q)); });
+      return loop_by_strain(
+          block, V, [&block](std::size_t q) __attribute__((always_inline)) { return block.H_at(q); },
+          [law](std::size_t, const Tensor& H) __attribute__((always_inline)) { return law.first_piola(H); },
+          [law](std::size_t, const Tensor& H) __attribute__((always_inline)) { return of_small(law, H); });
     }
     const double* of_block = memory_.data() + block.first - begin_;
     const std::size_t n = count_;
-    return loop(
-        block, V, [ law, &block, of_block, n ](std::size_t q) __attribute__((always_inline)) {
-          Tensor H_0;
-          unroll<components>([&](auto c) __attribute__((always_inline)) { H_0[c] = of_block[n * c + q]; });
-          return push(plus_identity<K>(H_0), law.first_piola(total(H_0, block.H_at(q))));
-        });
+    return loop_by_strain(
+        block, V, [&block, of_block, n ](std::size_t q) __attribute__((always_inline)) {
+          return total(H0_in(of_block, n, q), block.H_at(q));
+        },
+        [ law, of_block, n ](std::size_t q, const Tensor& H) __attribute__((always_inline)) {
+          return push(plus_identity<K>(H0_in(of_block, n, q)), law.first_piola(H));
+        },
+        [ law, of_block, n ](std::size_t q, const Tensor& H)
+            __attribute__((always_inline)) { return push(plus_identity<K>(H0_in(of_block, n, q)), of_small(law, H)); });
   }
   // For a law with P linear in H, δP = P(δH). A law with a rate is quicker by that than by its moduli.
   STILLPOINT_FLATTEN void tangent(Tangent kind, Block& block, const double* V, double dt) const override {
@@ -66,20 +70,27 @@ class ElasticMaterial : public LawMaterialBase<Law> {
           });
     } else if constexpr (requires(Tensor H) { law.rate(H, H); }) {
       if (!moved()) {
-        loop(
-            block, V, [ law, &block ](std::size_t q) __attribute__((always_inline)) {
-              return law.rate(block.H_at(q), block.direction_at(q));
-            });
+        loop_by_strain(
+            block, V, [&block](std::size_t q) __attribute__((always_inline)) { return block.H_at(q); },
+            [ law, &block ](std::size_t q, const Tensor& H)
+                __attribute__((always_inline)) { return law.rate(H, block.direction_at(q)); },
+            [ law, &block ](std::size_t q, const Tensor& H)
+                __attribute__((always_inline)) { return rate_of_small(law, H, block.direction_at(q)); });
         return;
       }
       const double* of_block = memory_.data() + block.first - begin_;
       const std::size_t n = count_;
-      loop(
-          block, V, [ law, &block, of_block, n ](std::size_t q) __attribute__((always_inline)) {
-            Tensor H_0;
-            unroll<components>([&](auto c) __attribute__((always_inline)) { H_0[c] = of_block[n * c + q]; });
-            const Tensor F_0 = plus_identity<K>(H_0);
-            return push(F_0, law.rate(total(H_0, block.H_at(q)), product<K>(block.direction_at(q), F_0)));
+      loop_by_strain(
+          block, V, [&block, of_block, n ](std::size_t q) __attribute__((always_inline)) {
+            return total(H0_in(of_block, n, q), block.H_at(q));
+          },
+          [ law, &block, of_block, n ](std::size_t q, const Tensor& H) __attribute__((always_inline)) {
+            const Tensor F_0 = plus_identity<K>(H0_in(of_block, n, q));
+            return push(F_0, law.rate(H, product<K>(block.direction_at(q), F_0)));
+          },
+          [ law, &block, of_block, n ](std::size_t q, const Tensor& H) __attribute__((always_inline)) {
+            const Tensor F_0 = plus_identity<K>(H0_in(of_block, n, q));
+            return push(F_0, rate_of_small(law, H, product<K>(block.direction_at(q), F_0)));
           });
     } else {
       Base::tangent(kind, block, V, dt);
@@ -176,21 +187,80 @@ class ElasticMaterial : public LawMaterialBase<Law> {
   ConstVec E_row() const { return ConstVec(memory_).last(count_); }
   double E_over_law(std::size_t p) const { return E_by_place_ ? E_row()[p - begin_] : 1; }
 
+  // Whether the law has quicker answers where the strain is small.
+  static constexpr bool eases_small_strain = requires(const Law& law, const Tensor& H) { law.is_small(H); };
+  [[gnu::always_inline]] static Tensor of_small(const Law& law, const Tensor& H) {
+    if constexpr (eases_small_strain) {
+      return law.first_piola_of_small(H);
+    } else {
+      return law.first_piola(H);
+    }
+  }
+  [[gnu::always_inline]] static Tensor rate_of_small(const Law& law, const Tensor& H, const Tensor& dH) {
+    if constexpr (eases_small_strain) {
+      return law.rate_of_small(H, dH);
+    } else {
+      return law.rate(H, dH);
+    }
+  }
+  // H_0 of point q of a block whose first is at `of_block`.
+  [[gnu::always_inline]] static Tensor H0_in(const double* of_block, std::size_t n, std::size_t q) {
+    Tensor H_0;
+    unroll<components>([&](auto c) __attribute__((always_inline)) { H_0[c] = of_block[n * c + q]; });
+    return H_0;
+  }
+
+  using OfBlock = std::array<double, Block::size>;
+  // The volumes of a block's points, times E over that of the law; room: for them where that is not 1.
+  const double* volumes(const Block& block, const double* V, OfBlock& room) const {
+    const double* volume = V + block.first;
+    if (!E_by_place_) return volume;
+    const double* E = E_row().data() + block.first - begin_;
+    for (std::size_t q = 0; q < block.count; ++q) room[q] = volume[q] * E[q];
+    return room.data();
+  }
   // Stores answer(q), times E over that of the law, as the block's V P.
   template <class Answer>
-  double loop(Block& block, const double* V, const Answer& answer) const {
-    const std::size_t count = block.count;
-    const double* volume = V + block.first;
-    std::array<double, Block::size> times_E;
-    if (E_by_place_) {
-      const double* E = E_row().data() + block.first - begin_;
-      for (std::size_t q = 0; q < count; ++q) times_E[q] = volume[q] * E[q];
-      volume = times_E.data();
-    }
+  [[gnu::always_inline]] double loop(Block& block, const double* V, const Answer& answer) const {
+    OfBlock room;
+    const double* volume = volumes(block, V, room);
     const auto point = [&](std::size_t q) __attribute__((always_inline)) {
       return block.store_stress(q, volume[q], answer(q));
     };
-    return Base::sum_in_groups(count, point);
+    return Base::sum_in_groups(block.count, point);
+  }
+  // The same with full(q, H), or the quicker near(q, H) where the strain of H = H_at(q) is small. What is stored of a
+  // point depends on no other: in a block of small strain alone full is just not asked for.
+  template <class StrainAt, class Full, class Near>
+  [[gnu::always_inline]] double loop_by_strain(Block& block, const double* V, const StrainAt& H_at, const Full& full,
+                                               const Near& near) const {
+    if constexpr (!eases_small_strain) {
+      return loop(
+          block, V, [&](std::size_t q) __attribute__((always_inline)) { return full(q, H_at(q)); });
+    } else {
+      const Law law = law_;
+      OfBlock room, is_large;
+      const double* volume = volumes(block, V, room);
+      const auto first = [&](std::size_t q) __attribute__((always_inline)) {
+        const Tensor H = H_at(q);
+        is_large[q] = law.is_small(H) ? 0 : 1;
+        return block.store_stress(q, volume[q], near(q, H));
+      };
+      const double bad = Base::sum_in_groups(block.count, first);
+      if (std::none_of(is_large.begin(), is_large.begin() + block.count, [](double large) { return large != 0; }))
+        return bad;
+      const auto then = [&](std::size_t q) __attribute__((always_inline)) {
+        const Tensor P = full(q, H_at(q));
+        double not_finite = 0;
+        unroll<components>([&](auto c) __attribute__((always_inline)) {
+          const double kept = block.VP[c][q];
+          block.VP[c][q] = is_large[q] != 0 ? volume[q] * P[c] : kept;
+          not_finite += 0 * block.VP[c][q];
+        });
+        return not_finite;
+      };
+      return Base::sum_in_groups(block.count, then);
+    }
   }
 
   bool moved_, E_by_place_;

@@ -84,7 +84,7 @@ TEST_CASE("a point answers with the same bits in a block of any size, whatever i
                                          material("hencky", ""), material("drucker-prager", soil),
                                          material("mohr-coulomb", soil)};
   for (const MaterialSpec& spec : all) {
-    for (const double size : {1e-5, 1e-3, 0.1}) {
+    for (const double size : {1e-5, 1e-3, 0.055, 0.1}) {  // Hencky's logarithm takes roots of some, not of all
       check<Kinematics::plane>(spec, size);
       check<Kinematics::axisymmetric>(spec, size);
       check<Kinematics::space>(spec, size);

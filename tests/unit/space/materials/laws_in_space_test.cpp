@@ -129,11 +129,37 @@ TEST_CASE("the logarithm of a small strain keeps its digits") {
 TEST_CASE("the logarithm of one point is the same on both sides of the strain from which it takes roots") {
   const SpaceTensor direction{0.5, 0.2, -0.3, 0.2, -0.4, 0.1, -0.3, 0.1, 0.6};
   const double norm = matrix_of(direction).norm();
-  for (const double size : {0.0999, 0.1001}) {
+  for (const double size : {1e-3, 0.05, 0.1999, 0.2001}) {
     const SpaceTensor B = size / norm * direction;
     const Eigen::Matrix3d by_roots = matrix_of(log_of_unit_plus(B));
     CHECK((matrix_of(log_of_one(B)) - by_roots).norm() <= 1e-14 * by_roots.norm());  // four roots round
   }
+}
+
+TEST_CASE(
+    "Hencky's stress and rate of a small strain are those of any strain, and a large one is not taken for small") {
+  const Hencky<space> law({.lambda = 1.5, .mu = 1});
+  const Gradient<space> dH{0.3, 0.2, -0.1, 0.15, -0.4, 0.25, -0.35, 0.1, 0.2};
+  bool some_large = false;
+  for (const double size : {1e-9, 1e-3, 0.03, 0.06, 0.1, 0.3}) {
+    for (Gradient<space> H : checks::deformations<space>()) {
+      for (double& h : H) h *= size;
+      CAPTURE(size);
+      const double strain = matrix_of(left_strain(displacement_gradient<space>(H))).norm();
+      CHECK(law.is_small(H) == (strain < 0.2));
+      some_large = some_large || !law.is_small(H);
+      if (!law.is_small(H)) continue;
+      const auto check = [](const Gradient<space>& by_series, const Gradient<space>& by_roots) {
+        double scale = 0;
+        for (const double component : by_roots) scale = std::max(scale, std::abs(component));
+        for (std::size_t k = 0; k < by_roots.size(); ++k)
+          CHECK(std::abs(by_series[k] - by_roots[k]) <= 2e-14 * scale);  // roots round
+      };
+      check(law.first_piola_of_small(H), law.first_piola(H));
+      check(law.rate_of_small(H, dH), law.rate(H, dH));
+    }
+  }
+  CHECK(some_large);
 }
 
 TEMPLATE_TEST_CASE("the rate of an elastic law is that of its moduli, at small and large strains", "", Hencky<space>,
