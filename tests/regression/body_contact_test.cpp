@@ -28,12 +28,12 @@ double error_of_blocks(const Summary& s, double E_2) {
 }
 
 /// A smooth disc on a smooth block, with its weight and a share of it along the block.
-std::string disc_on_block(double share, const std::string& pair) {
-  constexpr int corners = 44;
+std::string disc_on_block(double share, const std::string& pair, double x = 0.83) {
+  constexpr int corners = 60;
   std::vector<std::string> disc;
   for (int k = 0; k < corners; ++k) {
-    const double angle = 2 * std::numbers::pi * k / corners;
-    disc.push_back(fmt::format("[{}, {}]", 0.83 + 0.3 * std::cos(angle), 0.58 + 0.3 * std::sin(angle)));
+    const double angle = std::numbers::pi * (2 * k + 1) / corners;
+    disc.push_back(fmt::format("[{}, {}]", x + 0.3 * std::cos(angle), 0.58 + 0.3 * std::sin(angle)));
   }
   return fmt::format(
       "dim = 2\n[grid]\nmin = [0, 0]\nmax = [2, 1]\ncells = [64, 32]\n"
@@ -183,6 +183,19 @@ TEST_CASE("a smooth disc that is pushed along a smooth block is not said to rest
   }
   CHECK_THAT(scenes::run_text(disc_on_block(0.03, "'block', 'disc'")).reason,
              Catch::Contains("nothing holds 'disc' along x"));
+}
+
+TEST_CASE("an elastic disc rests with its weight on an elastic block, whichever of the two is named first") {
+  const double weight = 1e4 * 30 * 0.09 * std::sin(2 * std::numbers::pi / 60);  // ρ g times the polygon's area
+  for (const std::string pair : {"'block', 'disc'", "'disc', 'block'"}) {
+    for (const double x : {0.8437, 0.8615}) {
+      CAPTURE(pair, x);
+      const Summary s = scenes::run_text(disc_on_block(0, pair, x));
+      REQUIRE(s.status == RunStatus::equilibrium);
+      CHECK(std::abs(s.contacts.at(pair[1] == 'b' ? "block+disc.force_y" : "disc+block.force_y")) ==
+            Approx(weight).epsilon(1e-2));  // of cells that the polygon cuts
+    }
+  }
 }
 
 }  // namespace stillpoint::test

@@ -63,7 +63,8 @@ class Multipliers : public Watcher {
     since_nearest_ += std::clamp(std::log10(unbalanced_ / residual), 0.0, 2.0);
     if (state.change < nearer() * least_change_) least_change_ = state.change, since_nearest_ = 0;
     unbalanced_ = run.motion->known_residual(run.t);
-    goal_ = remembers_ ? std::max(goal_ / 10, least_) : std::max(half * unbalanced_, least_ / 10);
+    goal_ = remembers_ ? std::max(goal_ / 10, least_)
+                       : std::clamp(half * unbalanced_, least_ / 10, std::max(early, least_));
   }
 
   // Takes an equilibrium back whose contact penetrates, as its multipliers come to no end: by much, or by a little

@@ -181,7 +181,7 @@ std::string fault_of_turn(const LagrangianPhase& phase, double t, ConstVec u) {
 /// Bodies that slide along each other, and that only what was opposite when the phase began holds: of a round body that
 /// slides on, places push it back that have gone from under it. empty: there are none.
 std::string fault_of_slide(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
-  constexpr double little = 1e-2;  // of the force
+  constexpr double negligible = 1e-3, most = 0.5;  // of the force; of its component along the axis
   if (problem.contacts.empty()) return "";
   const std::vector<FreePart> parts = phase.shape().free_parts();
   if (parts.empty()) return "";
@@ -192,16 +192,16 @@ std::string fault_of_slide(const Problem& problem, const LagrangianPhase& phase,
     const double force = std::hypot(contact.force[0], contact.force[1], contact.force[2]);
     const auto [a, b] = bodies_of(problem, problem.contacts[k]);
     for (const FreePart& part : parts) {
-      const auto body = static_cast<std::size_t>(body_of[part.point]);
-      const double strayed = std::abs(contact.strayed[static_cast<std::size_t>(part.axis)]);
-      if ((body != a && body != b) || !(strayed > little * force)) continue;
+      const auto body = static_cast<std::size_t>(body_of[part.point]), axis = static_cast<std::size_t>(part.axis);
+      const double along = std::abs(contact.force[axis]);
+      if ((body != a && body != b) || !(along > negligible * force) ||
+          !(std::abs(contact.strayed[axis]) > most * along))
+        continue;
       return fmt::format(
-          "nothing holds {} along {} but {:.2g} of the force of contact {}, which acts on parts of the borders that "
-          "were "
-          "opposite when the phase began and are opposite no more: they slid by up to {:.2g} cells along each other; "
-          "expected phases, as by phase.max_motion = 0.1",
-          name_of_body(problem, body), axis_names(phase.dim())[static_cast<std::size_t>(part.axis)], strayed / force,
-          contact.name, contact.slid);
+          "nothing holds {} along {} but {:.4g} N of contact {}, which act on parts of the borders that were opposite "
+          "when the phase began and are opposite no more: they slid by up to {:.2g} cells along each other; expected "
+          "phases, as by phase.max_motion = 0.1",
+          name_of_body(problem, body), axis_names(phase.dim())[axis], along, contact.name, contact.slid);
     }
   }
   return "";

@@ -2,6 +2,7 @@
 // facet of the second.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -61,17 +62,27 @@ double BodyContact<K>::slid(const Pair& pair, const double* u) {
   return most;
 }
 
-// Σ A p (n − n'),   n': the normal of the facet that is opposite now; 0 where none is.
+// Σ A p (n − n'),   n': the normal of the facet that is opposite to x_s + m; 0 where none is. m: the mean way along
+// each other by these forces; what two bodies that do not slide do beside it, as they flatten each other, is no slide.
 template <Kinematics K>
 std::array<double, 3> BodyContact<K>::strayed(const Pair& pair, const double* u) {
-  const std::vector<BorderPiece<K>> pieces = moved_pieces(pair.second, u);
-  const FacetSearch<K> search(pair.second.patches(), pieces);
-  std::array<double, 3> sum{};
+  constexpr double little = 0.02;  // [cells]
+  Position way = Position::Zero();
+  double force = 0, cell = std::numeric_limits<double>::infinity();
   pair.force.for_closed({}, u, [&](const auto& touch) {
-    BorderPiece<K> piece = pair.first.piece(touch.piece);
-    piece.move(u);
+    const Position moved = TouchFinder<K>::position_of(pair.first.motion(touch.piece, u));
+    way += touch.area * touch.p * (moved - touch.at.normal.dot(moved) * touch.at.normal);
+    force += touch.area * touch.p;
+    cell = std::min(cell, pair.first.patches()[touch.patch].cell);
+  });
+  std::array<double, 3> sum{};
+  if (!(way.norm() > little * cell * force)) return sum;
+  const FacetSearch<K> search(pair.second);
+  pair.force.for_closed({}, u, [&](const auto& touch) {
+    auto there = pair.first.start(touch.piece);
+    for (std::size_t i = 0; i < there.size(); ++i) there[i] += way[static_cast<Eigen::Index>(i)] / force;
     Position change = touch.at.normal;
-    if (const auto facet = search.opposite(piece.place(), piece.normal()))
+    if (const auto facet = search.opposite(there, pair.first.normal(touch.piece)))
       change -= TouchFinder<K>::position_of(facet->normal);
     for (int i = 0; i < N; ++i) sum[static_cast<std::size_t>(i)] += touch.area * touch.p * change[i];
   });

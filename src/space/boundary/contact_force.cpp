@@ -57,6 +57,10 @@ void ContactForce<K, Finder>::archive(const StateArchive& state) {
   resize();
   for (Eigen::Index i = 0; i < N && finder_.is_free(); ++i) state(fmt::format("settled_{}", i), settled_[i]);
   for (const auto& part : surface_.parts()) archive_part(state.part(surface_.name_of(part)), part);
+  std::vector<double> kept(kept_.begin(), kept_.end());
+  state("updates", updates_);
+  state.none_or(surface_.size(), "kept", kept);
+  kept_.assign(kept.begin(), kept.end());
 }
 
 template <Kinematics K, class Finder>
@@ -237,6 +241,24 @@ auto ContactForce<K, Finder>::touches(const RigidPlacement<N>& placement, const 
     touches.all.push_back(touch);
     touches.pieces.push_back(touch.piece);
   });
+  if (kept_.empty()) return touches;
+  std::vector<char> open = kept_;
+  for (const std::size_t s : touches.pieces) open[s] = 0;
+  const auto patches = surface_.patches();
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    for (std::size_t s = patches[k].begin; s < patches[k].end; ++s) {
+      if (!open[s]) continue;
+      Touch touch{};
+      touch.patch = k;
+      touch.piece = s;
+      touch.at.normal.setZero();
+      touch.at.distance = lambda_[s] / patches[k].stiffness;
+      touch.area = surface_.area(s);
+      touch.kappa = patches[k].stiffness;
+      touches.all.push_back(touch);
+      touches.pieces.push_back(s);
+    }
+  }
   return touches;
 }
 
@@ -332,7 +354,12 @@ bool ContactForce<K, Finder>::is_touched(double t, const double* u) const {
 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::update_multipliers(double t, const double* u, bool evenly) {
+  constexpr long soon = 20;  // updates, after most contacts have come to their end
   const RigidPlacement<N> placement = this->placement(t, u);
+  if (!evenly && ++updates_ >= soon) {
+    kept_.resize(surface_.size());
+    for_closed(placement, u, [&](const Touch& touch) { kept_[touch.piece] = 1; });
+  }
   const Touches touches = this->touches(placement, u);
   Eigen::MatrixXd borne(touches.all.size(), remembers() ? 1 + N : 1);  // p, τ
   Eigen::Index row = 0;
@@ -404,6 +431,8 @@ auto ContactForce<K, Finder>::ways_to_mean_gap(double t, const double* u) const 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::follow(const std::vector<PieceOrigin>& origins, std::vector<Position>& slip) {
   lambda_ = of_pieces_cut_anew(lambda_, origins);
+  updates_ = 0;
+  kept_.clear();
   if (!remembers()) return;
   lambda_t_ = of_pieces_cut_anew(lambda_t_, origins);
   slip = of_pieces_cut_anew(slip, origins);

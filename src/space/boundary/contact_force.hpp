@@ -15,6 +15,11 @@
 // becomes what the grid's functions can tell of p (trace_fit.hpp), or in bodies that deform much its mean over the
 // patch, and the body goes on to where g has no such part.
 //
+// With Π for what can be told, λ ← Π max(0, λ − κ g) comes to its end from any λ if Π is one and the same projection:
+// it is firmly nonexpansive, as the steps of an augmented Lagrangian are [Rockafellar 1976]. A Π over the pieces that
+// touch at the time is not, and where pieces open and close from one update to the next there is no end. After some
+// twenty updates those that open therefore stay in it, with p = 0.
+//
 // Friction [Coulomb] and adhesion c: with the anchor a, the position T⁻¹ x at which the piece stuck last, the elastic
 // slip s = (I − n nᵀ)(T⁻¹ x − a) and the multiplier λ_t,
 //
@@ -110,7 +115,7 @@ class ContactForce {
   /// on.
   void commit(double t, const double* u);
   /// Takes the pressures at (t, u) as multipliers; evenly: by changes that are smoothed (patch_neighbours.hpp), of
-  /// which there may be any number.
+  /// which there may be any number, and which are not counted.
   void update_multipliers(double t, const double* u, bool evenly);
   /// Whether a piece bears a pressure.
   bool is_touched(double t, const double* u) const;
@@ -162,7 +167,8 @@ class ContactForce {
   template <class Visit>
   void for_touches(const RigidPlacement<N>& placement, const double* u, double slack, const Visit& visit) const;
   void drag(const RigidPlacement<N>& placement, const Touch& touch);
-  /// The pieces that bear a pressure.
+  /// The pieces that bear a pressure, and then those that are kept with them although they are open: of p = 0 at the
+  /// gap λ/κ.
   struct Touches {
     std::vector<Touch> all;
     std::vector<std::size_t> pieces;
@@ -193,6 +199,8 @@ class ContactForce {
   std::vector<Position> lambda_t_;  // λ_t, in the axes of T⁻¹ x [Pa]
   std::vector<Position> anchor_;    // a, in the same axes [m]
   std::vector<char> closed_;        // of commit()
+  long updates_ = 0;                // of the multipliers since the border was cut, but those made evenly
+  std::vector<char> kept_;          // whether a piece has touched at one of them, late ones alone; empty before those
   std::vector<char> was_there_;     // (bodies up to the last that was); empty in the first stage
 };
 

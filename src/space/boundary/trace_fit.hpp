@@ -7,8 +7,7 @@
 // goes to and fro from cell to cell, as the means over cells hardly tell the motions that do. What is in the functions'
 // own space is felt, all of it [a mortar method with multipliers of the order of the displacement: Puso and Laursen
 // 2004]. At the end of what touches a function may reach a sliver of it alone: its value would hardly be felt, and is
-// left to those beside it. On two sides of a corner a
-// function has a value for each: pressures jump there.
+// left to those beside it. On two sides of a corner a function has a value for each: pressures jump there.
 #pragma once
 
 #include <span>
