@@ -64,8 +64,7 @@ void list_materials() {
     }
     list_choices(law.choices);
     if (law.from_library)
-      fmt::print("    {:<18}shared library with the subroutine, its constants, the names of its state variables\n",
-                 "library, props, statev");
+      fmt::print("    library, props, statev  shared library with the subroutine, its constants, names of its state\n");
   }
 }
 
