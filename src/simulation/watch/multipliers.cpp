@@ -2,16 +2,16 @@
 // multipliers, and goes on to where nothing penetrates.
 //
 // Each time they change, the body is out of balance again, by what it will have to go on. So they are taken first at a
-// residual of 0.1, and then each time that half of what the last update put out of balance is left: body and pressures
-// come to their places together. Friction remembers each state on the way, and the first overshoot of the motion is one
-// of another state: with it they are taken first at a residual of 1e-2, and then at a tenth of the last residual, down
-// to the one that the scene asks for. They are taken at least twice, until what the grid's functions can tell of a
-// penetration is less than a thousandth of a cell, and until another update would change what the body feels of them by
-// no more than thirty times the residual that the scene asks for. At the edge of a contact a piece may open and close
-// from one update to the next; once they come no nearer, there are no more. Under loads that still change they follow
-// once in a while, and after a longer while even if the body is not near balance: in a motion that is never quiet the
-// penalty alone would press else, and give way. There is no end to those, and they are taken evenly: what swings at the
-// moment of an update is not to stay as a pressure.
+// residual of 0.1, and then each time that half of what the last update put out of balance is left, and no more than
+// that 0.1: body and pressures come to their places together. Friction remembers each state on the way, and the first
+// overshoot of the motion is one of another state: with it they are taken first at a residual of 1e-2, and then at a
+// tenth of the last residual, down to the one that the scene asks for. They are taken at least twice, until what the
+// grid's functions can tell of a penetration is less than a thousandth of a cell, and until another update would change
+// what the body feels of them by no more than thirty times the residual that the scene asks for. At the edge of a
+// contact a piece may open and close from one update to the next; once they come no nearer, there are no more. Under
+// loads that still change they follow once in a while, and after a longer while even if the body is not near balance:
+// in a motion that is never quiet the penalty alone would press else, and give way. There is no end to those, and they
+// are taken evenly: what swings at the moment of an update is not to stay as a pressure.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -157,7 +157,8 @@ class Multipliers : public Watcher {
   }
   bool comes_no_nearer(const ContactState& state) const {
     constexpr double patience = 4;
-    return state.misfit <= largest_misfit && since_nearest_ >= patience;
+    constexpr long enough = 40;  // updates, of which the last twenty keep what opens (contact_force.hpp)
+    return state.misfit <= largest_misfit && since_nearest_ >= patience && (remembers_ || updates_ >= enough);
   }
   // Whether the body is as near to balance as the next update wants it.
   bool is_due(RunState& run, bool loads_stay) {

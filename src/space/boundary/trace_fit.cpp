@@ -1,6 +1,7 @@
 #include "space/boundary/trace_fit.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <unordered_map>
@@ -30,13 +31,18 @@ int side_of(const BorderPiece<K>& piece) {
   return 2 * static_cast<int>(nearest) + (along[nearest] > 0 ? 1 : 0);
 }
 
-/// Calls visit(key, w) for the functions of a piece, with a key for each function on each side.
+/// Calls visit(key, w, n·∇N) for the functions of a piece, with a key for each function on each side.
 template <Kinematics K, class Visit>
 void for_functions(const BorderPiece<K>& piece, const Visit& visit) {
   constexpr int sides = 6;
   const int side = side_of(piece);
-  for (const auto& a : piece.at.entries)
-    if (a.function >= 0 && a.w != 0) visit(sides * static_cast<std::int64_t>(a.function) + side, a.w);
+  const auto n = piece.normal();
+  for (const auto& a : piece.at.entries) {
+    if (a.function < 0 || a.w == 0) continue;
+    double slope = 0;
+    for (std::size_t d = 0; d < n.size(); ++d) slope += n[d] * a.dN[d];
+    visit(sides * static_cast<std::int64_t>(a.function) + side, a.w, slope);
+  }
 }
 
 using OfFunctions = std::unordered_map<std::int64_t, double>;
@@ -46,7 +52,7 @@ template <Kinematics K>
 OfFunctions squares(Border<K> border, const std::vector<std::size_t>& pieces) {
   OfFunctions sums;
   for (const std::size_t s : pieces)
-    for_functions(border[s], [&](std::int64_t key, double w) { sums[key] += border[s].size() * w * w; });
+    for_functions(border[s], [&](std::int64_t key, double w, double) { sums[key] += border[s].size() * w * w; });
   return sums;
 }
 
@@ -69,29 +75,39 @@ TraceFit::TraceFit(std::span<const BorderPiece<K>> border, const std::vector<std
   constexpr double sliver = 0.2;  // of the largest share of the functions at a piece
   const OfFunctions share = shares<K>(border, pieces);
   std::unordered_map<std::int64_t, int> column;
-  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<Eigen::Triplet<double>> of_weights, of_slopes;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const BorderPiece<K>& piece = border[pieces[k]];
     const auto row = static_cast<int>(k);
     area_[row] = piece.size();
-    double most = 0, sum = 0;
-    for_functions(piece, [&](std::int64_t key, double) { most = std::max(most, share.at(key)); });
+    double most = 0, sum = 0, slopes = 0, steepest = 0;
+    for_functions(piece, [&](std::int64_t key, double, double) { most = std::max(most, share.at(key)); });
     const auto counts = [&](std::int64_t key) { return share.at(key) >= sliver * most; };
-    for_functions(piece, [&](std::int64_t key, double w) { sum += counts(key) ? w : 0; });
-    for_functions(piece, [&](std::int64_t key, double w) {
-      const auto next = static_cast<int>(column.size());
-      if (counts(key)) entries.emplace_back(row, column.try_emplace(key, next).first->second, w / sum);
+    for_functions(piece, [&](std::int64_t key, double w, double slope) {
+      if (!counts(key)) return;
+      sum += w;
+      slopes += slope;
+      steepest = std::max(steepest, std::abs(slope));
+    });
+    for_functions(piece, [&](std::int64_t key, double w, double slope) {
+      if (!counts(key)) return;
+      const int next = static_cast<int>(column.size()), at = column.try_emplace(key, next).first->second;
+      of_weights.emplace_back(row, at, w / sum);
+      if (steepest > 0) of_slopes.emplace_back(row, at, (slope - slopes * w / sum) / steepest);
     });
   }
-  weights_.resize(area_.size(), static_cast<Eigen::Index>(column.size()));
-  weights_.setFromTriplets(entries.begin(), entries.end());
-  // Along a border that is curved on the grid functions on either side of it have nearly one trace, which tells their
-  // difference by chance: P is the least of Σ_s A_s ((Σ_a w_sa P_a − p_s)² + ε' Σ_a w_sa (P_a − Σ_b w_sb P_b)²), with
-  // ε' = ε/(1 − ε), which leaves a constant p as it is.
-  constexpr double epsilon = 0.03;
-  gram_ = (1 - epsilon) * (weights_.transpose() * area_.asDiagonal() * weights_).eval();
-  const Eigen::VectorXd reach = weights_.transpose() * area_;
-  for (Eigen::Index a = 0; a < reach.size(); ++a) gram_.coeffRef(a, a) += epsilon * reach[a];
+  const auto matrix = [&](const std::vector<Eigen::Triplet<double>>& entries) {
+    Eigen::SparseMatrix<double> of_pieces(area_.size(), static_cast<Eigen::Index>(column.size()));
+    of_pieces.setFromTriplets(entries.begin(), entries.end());
+    return of_pieces;
+  };
+  weights_ = matrix(of_weights);
+  const Eigen::SparseMatrix<double> across = matrix(of_slopes);
+  const auto squares_of = [&](const Eigen::SparseMatrix<double>& of_pieces) -> Eigen::SparseMatrix<double> {
+    return of_pieces.transpose() * area_.asDiagonal() * of_pieces;
+  };
+  constexpr double epsilon = 0.01;
+  gram_ = squares_of(weights_) + epsilon * squares_of(across);
 }
 
 // Functions that the pieces cannot tell apart leave the matrix singular, and the equations consistent: conjugate

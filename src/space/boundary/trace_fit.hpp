@@ -8,6 +8,13 @@
 // own space is felt, all of it [a mortar method with multipliers of the order of the displacement: Puso and Laursen
 // 2004]. At the end of what touches a function may reach a sliver of it alone: its value would hardly be felt, and is
 // left to those beside it. On two sides of a corner a function has a value for each: pressures jump there.
+//
+// Where a border is curved on the grid functions on either side of it have nearly one trace, which tells their
+// difference by chance. Of the P that lie so near that is taken which changes least across the border, by
+//
+//   + ε Σ_s A_s (h Σ_a n·∇N_a P_a)²,   ε = 0.01,
+//
+// which leaves p as it is where it is linear along a straight border.
 #pragma once
 
 #include <span>
