@@ -181,7 +181,7 @@ std::string fault_of_turn(const LagrangianPhase& phase, double t, ConstVec u) {
 /// Bodies that slide along each other, and that only what was opposite when the phase began holds: of a round body that
 /// slides on, places push it back that have gone from under it. empty: there are none.
 std::string fault_of_slide(const Problem& problem, const LagrangianPhase& phase, double t, ConstVec u) {
-  constexpr double negligible = 1e-3, most = 0.5;  // of the force; of its component along the axis
+  constexpr double negligible = 1e-3, most = 0.25;  // of the force; of its component along the axis
   if (problem.contacts.empty()) return "";
   const std::vector<FreePart> parts = phase.shape().free_parts();
   if (parts.empty()) return "";

@@ -2,7 +2,6 @@
 // facet of the second.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -29,6 +28,21 @@ double angle_of_turn(const Eigen::Vector3d& n, const Eigen::Vector3d& n_now, con
                      const Eigen::Vector3d& N_now) {
   const Eigen::Vector3d carried = Eigen::Quaterniond::FromTwoVectors(N, N_now) * n;
   return std::atan2(carried.cross(n_now).norm(), carried.dot(n_now));
+}
+
+/// The mean normal of the facets that are opposite to places up to a cell before and behind x, so that facets of some
+/// length do not count by chance; 0 where none is.
+template <Kinematics K>
+typename TouchFinder<K>::Position mean_normal(const FacetSearch<K>& search, const BorderPiece<K>& piece,
+                                              const typename TouchFinder<K>::Position& cell_along) {
+  constexpr int looks = 8;  // each way
+  typename TouchFinder<K>::Position sum = TouchFinder<K>::Position::Zero();
+  for (int look = -looks; look <= looks; ++look) {
+    auto x = piece.place();
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += cell_along[static_cast<Eigen::Index>(i)] * look / looks;
+    if (const auto facet = search.opposite(x, piece.normal())) sum += TouchFinder<K>::position_of(facet->normal);
+  }
+  return sum / (2 * looks + 1);
 }
 
 }  // namespace
@@ -62,28 +76,25 @@ double BodyContact<K>::slid(const Pair& pair, const double* u) {
   return most;
 }
 
-// Σ A p (n − n'),   n': the normal of the facet that is opposite to x_s + m; 0 where none is. m: the mean way along
-// each other by these forces; what two bodies that do not slide do beside it, as they flatten each other, is no slide.
+// Σ A p (n − n'),   n, n': of the facets opposite when the phase began, and of those opposite now, where the bodies
+// are.
 template <Kinematics K>
 std::array<double, 3> BodyContact<K>::strayed(const Pair& pair, const double* u) {
-  constexpr double little = 0.02;  // [cells]
-  Position way = Position::Zero();
-  double force = 0, cell = std::numeric_limits<double>::infinity();
+  Position way = Position::Zero();  // along each other
   pair.force.for_closed({}, u, [&](const auto& touch) {
     const Position moved = TouchFinder<K>::position_of(pair.first.motion(touch.piece, u));
     way += touch.area * touch.p * (moved - touch.at.normal.dot(moved) * touch.at.normal);
-    force += touch.area * touch.p;
-    cell = std::min(cell, pair.first.patches()[touch.patch].cell);
   });
   std::array<double, 3> sum{};
-  if (!(way.norm() > little * cell * force)) return sum;
-  const FacetSearch<K> search(pair.second);
+  if (!(way.norm() > 0)) return sum;
+  const std::vector<BorderPiece<K>> pieces = moved_pieces(pair.second, u);
+  const FacetSearch<K> before(pair.second), now(pair.second.patches(), pieces);
   pair.force.for_closed({}, u, [&](const auto& touch) {
-    auto there = pair.first.start(touch.piece);
-    for (std::size_t i = 0; i < there.size(); ++i) there[i] += way[static_cast<Eigen::Index>(i)] / force;
-    Position change = touch.at.normal;
-    if (const auto facet = search.opposite(there, pair.first.normal(touch.piece)))
-      change -= TouchFinder<K>::position_of(facet->normal);
+    const Position cell_along = pair.first.patches()[touch.patch].cell * way.normalized();
+    BorderPiece<K> piece = pair.first.piece(touch.piece);
+    Position change = mean_normal<K>(before, piece, cell_along);
+    piece.move(u);
+    change -= mean_normal<K>(now, piece, cell_along);
     for (int i = 0; i < N; ++i) sum[static_cast<std::size_t>(i)] += touch.area * touch.p * change[i];
   });
   return sum;
