@@ -74,8 +74,8 @@ TEST_CASE("a body is pressed by a smooth rigid one in no more than 2.2 times the
 }
 
 TEST_CASE("a motion with critical damping is pressed in no more than 2.2 times the evaluations of the same traction") {
-  // 1.7, 2.0, 2.1 and 1.9; 0.6 more if balance has to last for a period, and 0.3 if the first update waits for a residual
-  // of 1e-2.
+  // 1.7, 2.0, 2.1 and 1.9; 0.6 more if balance has to last for a period, and 0.3 if the first update waits for a
+  // residual of 1e-2.
   for (const Pressed& by : pressed) {
     CAPTURE(by.name);
     const Summary touched = press(by, {"damping.strategy=viscous"});
