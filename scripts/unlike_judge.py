@@ -113,7 +113,7 @@ def contact_fault(unlike, summary):
 
 
 def beyond_cone(m, xx, yy, zz, xy):
-    """The largest f/(ξ c), of the cone that matches Mohr and Coulomb's law in plane strain, tension positive:
+    """f/(ξ c), of the cone that matches Mohr and Coulomb's law in plane strain, tension positive:
     f = √J₂ + η p − ξ c,   η = sin φ/(√(1 − η̄²/3) + (η̄/3) sin φ),   η̄ = 3 sin ψ/√(9 + 3 sin² ψ),   ξ = η cot φ"""
     phi, psi = np.radians(m["phi"]), np.radians(m["psi"])
     of_flow = 3 * np.sin(psi) / np.sqrt(9 + 3 * np.sin(psi) ** 2)
@@ -133,7 +133,7 @@ def beyond_pyramid(m, xx, yy, zz, xy):
 
 
 def beyond_strength(unlike, ended):
-    """The largest of the points."""
+    """The most that a point bears beyond its strength, as a share of it."""
     m = unlike.scene["material"]["m"]
     beyond = beyond_pyramid if m["law"] == "mohr-coulomb" else beyond_cone
     return float(beyond(m, *(ended.last[f"stress_{name}"] for name in ("xx", "yy", "zz", "xy"))).max())

@@ -107,7 +107,7 @@ void BodyContact<K>::add_reports(const double* u, std::vector<ContactReport>& to
     if (are_there(problem_, pair->spec)) {
       report = pair->force.report(0, u);
       report.slid = slid(*pair, u);
-      report.strayed = strayed(*pair, u);
+      if (!problem_.phase.ends()) report.strayed = strayed(*pair, u);  // else facets are found anew, and soon
       report.turned = turned(*pair, u);
     }
     report.name = pair->spec.name();
