@@ -159,9 +159,8 @@ struct SpaceLogStrain {
       : B(left_strain(H)), J(logarithm(determinant(unit_plus(H)), change_of_volume(H, cofactor(H)))) {}
 
   SpaceTensor strain() const { return 0.5 * log_of_unit_plus(B); }
-  /// The same without a root, where is_small().
+  /// The same without a root, where is_near_zero(B).
   SpaceTensor small_strain() const { return 0.5 * log_near_unit(B); }
-  bool is_small() const { return is_near_zero(B); }
   /// The strain of one point at a time.
   SpaceTensor strain_of_one() const { return 0.5 * log_of_one(B); }
 
@@ -169,7 +168,7 @@ struct SpaceLogStrain {
   [[gnu::always_inline]] StrainAndRate<SpaceTensor> strain_and_rate(const SpaceTensor& l) const {
     return halves(log_of_unit_plus(B_and_rate(l)));
   }
-  /// The same without a root, where is_small().
+  /// The same without a root, where is_near_zero(B).
   [[gnu::always_inline]] StrainAndRate<SpaceTensor> small_strain_and_rate(const SpaceTensor& l) const {
     return halves(log_near_unit(B_and_rate(l)));
   }
