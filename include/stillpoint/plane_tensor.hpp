@@ -29,6 +29,11 @@ constexpr double plane_determinant(const PlaneTensor& A) { return A.xx * A.yy - 
 constexpr double determinant(const PlaneTensor& A) { return plane_determinant(A) * A.zz; }
 /// The relative change of area det₂(I + H) − 1, with the digits of a small H.
 constexpr double change_of_area(const PlaneTensor& H) { return H.xx + H.yy + plane_determinant(H); }
+/// The relative change of volume det(I + H) − 1, likewise.
+constexpr double change_of_volume(const PlaneTensor& H) {
+  const double of_area = change_of_area(H);
+  return of_area + (1 + of_area) * H.zz;
+}
 constexpr PlaneTensor inverse(const PlaneTensor& A) {
   const double r = 1 / plane_determinant(A);
   return {r * A.yy, -r * A.xy, -r * A.yx, r * A.xx, 1 / A.zz};

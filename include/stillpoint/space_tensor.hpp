@@ -95,6 +95,10 @@ constexpr N change_of_volume(const SpaceTensorOf<N>& H, const SpaceTensorOf<N>& 
   return trace(H) + (trace(cof_H) + (H.xx * cof_H.xx + H.xy * cof_H.xy + H.xz * cof_H.xz));
 }
 template <class N>
+constexpr N change_of_volume(const SpaceTensorOf<N>& H) {
+  return change_of_volume(H, cofactor(H));
+}
+template <class N>
 constexpr SpaceTensorOf<N> inverse(const SpaceTensorOf<N>& A) {
   const SpaceTensorOf<N> c = cofactor(A);
   return (1 / (A.xx * c.xx + A.xy * c.xy + A.xz * c.xz)) * transpose(c);

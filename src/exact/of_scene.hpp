@@ -12,6 +12,8 @@
 #include <string_view>
 #include <utility>
 
+#include "scene/pore_water.hpp"
+
 namespace stillpoint {
 
 /// The constants of the single material of the bodies, and their stress state.
@@ -28,7 +30,7 @@ inline const MaterialSpec& material_of(const Problem& problem) {
 
 inline ElasticConstants elastic_constants(const Problem& problem) {
   const MaterialSpec& material = material_of(problem);
-  const double E = material.parameters.at("E"), nu = material.parameters.at("nu");
+  const auto [E, nu] = with_water(material);
   const bool is_plane_stress = problem.state == StressState::plane_stress;
   return {.E = E,
           .nu = nu,

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/pore_water.hpp"
 #include "space/materials/material_laws.hpp"
 
 namespace stillpoint {
@@ -47,7 +48,7 @@ void for_stresses(const ExactSolution& solution, const LagrangianPhase& phase, c
 // σ:C⁻¹:σ = [(1 + ν) σ:σ − ν (tr σ)²]/E in space, and in the plane, in which σ_zz does no work; on a line σ²/E if the
 // section is free to contract, else σ²/(λ + 2μ).
 double energy(const MaterialSpec& material, StressState state, std::span<const double> sigma) {
-  const double E = material.parameters.at("E"), nu = material.parameters.at("nu");
+  const auto [E, nu] = with_water(material);
   if (state == StressState::uniaxial_stress) return contracted(sigma) / E;
   if (state == StressState::uniaxial_strain) {
     const auto [lambda, mu] = LameParameters::from(E, nu);

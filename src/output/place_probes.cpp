@@ -73,7 +73,9 @@ class PlaceFields {
       places.stress(x, all);
     } else if (name == "effective_stress") {
       places.stress(x, all);
-      if (has_water_) make_effective(all, places.history("pore_pressure", x));
+      if (has_water_) make_effective(all, places.pore_pressure(x));
+    } else if (name == "pore_pressure") {
+      all[0] = places.pore_pressure(x);
     } else {
       all[0] = places.history(name, x);
     }

@@ -22,9 +22,9 @@ std::vector<std::string> suffixes(const LagrangianPhase& phase, const std::strin
   return components;
 }
 
-bool remembers(const LagrangianPhase& phase, const std::string& name) {
-  const std::vector<std::string>& remembered = phase.info().history_names;
-  return std::ranges::find(remembered, name) != remembered.end();
+bool has_of_law(const LagrangianPhase& phase, const std::string& name) {
+  const std::vector<std::string>& of_laws = phase.info().law_fields;
+  return std::ranges::find(of_laws, name) != of_laws.end();
 }
 
 }  // namespace
@@ -42,12 +42,14 @@ std::vector<double> point_field(const LagrangianPhase& phase, const std::string&
     phase.fields().point_stress(t, u, values);
   } else if (name == "effective_stress") {
     phase.fields().point_stress(t, u, values);
-    if (!remembers(phase, "pore_pressure")) return values;
+    if (!has_of_law(phase, "pore_pressure")) return values;
     std::vector<double> pressure(phase.points());
-    phase.fields().point_history("pore_pressure", pressure);
+    phase.fields().point_field(PointQuantity::pore_pressure, t, u, pressure);
     const std::size_t components = values.size() / pressure.size();
     for (std::size_t p = 0; p < pressure.size(); ++p)
       make_effective(Vec(values).subspan(components * p, components), pressure[p]);
+  } else if (name == "pore_pressure" && has_of_law(phase, name)) {
+    phase.fields().point_field(PointQuantity::pore_pressure, t, u, values);
   } else if (name == "volume") {
     phase.fields().point_field(PointQuantity::volume, t, u, values);
   } else {
@@ -90,7 +92,7 @@ LargestStrain largest_strain(const LagrangianPhase& phase, double t, ConstVec u)
 bool is_field(const LagrangianPhase& phase, const std::string& name) {
   constexpr std::array always = {"u", "v", "strain", "stress", "volume"};
   const bool is_effective = name == "effective_stress" && phase.info().stress_components > 1;
-  return std::ranges::find(always, name) != always.end() || is_effective || remembers(phase, name);
+  return std::ranges::find(always, name) != always.end() || is_effective || has_of_law(phase, name);
 }
 
 std::vector<double> current_positions(const LagrangianPhase& phase, double t, ConstVec u) {

@@ -54,7 +54,7 @@ FieldFrame frame_at(const Problem& problem, const LagrangianPhase& phase, double
   };
   for (const char* name : {"u", "v", "stress", "volume"}) add(name, point_field(phase, name, t, u, v));
   if (!problem.phase.ends()) add("strain", strain_tensors(phase, t, u));
-  for (const std::string& name : phase.info().history_names) add(name, point_field(phase, name, t, u, v));
+  for (const std::string& name : phase.info().law_fields) add(name, point_field(phase, name, t, u, v));
   return frame;
 }
 

@@ -128,7 +128,7 @@ Array Unknowns::mass_solve(const Array& b) {
 }
 
 std::vector<std::string> Points::names() {
-  std::vector<std::string> all = simulation().at_rest().parts().phase.info().history_names;
+  std::vector<std::string> all = simulation().at_rest().parts().phase.info().law_fields;
   for (const auto& [name, field] : constant_fields) all.push_back(name);
   for (const auto& [name, field] : computed_fields) all.push_back(name);
   std::ranges::sort(all);
@@ -140,7 +140,7 @@ Array Points::field(const std::string& name) {
   if (const auto constant = constant_fields.find(name); constant != constant_fields.end())
     return array_of_points(now.parts().phase.fields().point_data().*constant->second, now.points());
   const auto computed = computed_fields.find(name);
-  const bool is_remembered = std::ranges::count(now.parts().phase.info().history_names, name) > 0;
+  const bool is_remembered = std::ranges::count(now.parts().phase.info().law_fields, name) > 0;
   if (computed == computed_fields.end() && !is_remembered)
     throw py::attribute_error(
         fmt::format("the points have no field '{}'; expected {}", name, fmt::join(names(), ", ")));

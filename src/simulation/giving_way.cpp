@@ -11,7 +11,7 @@ namespace stillpoint {
 
 GivingWay::GivingWay(const Problem& problem, const LagrangianPhase& phase) : phase_(phase) {
   remembers_ = phase.info().remembers;
-  yields_ = std::ranges::count(phase.info().history_names, plastic_strain_name) > 0;
+  yields_ = std::ranges::count(phase.info().law_fields, plastic_strain_name) > 0;
   for (const WallSpec& wall : problem.walls) shear_of_walls_.push_back({.friction = wall.friction});
   for (const RigidSpec& rigid : problem.rigid) {
     contacts_.push_back("rigid body " + in_quotes(rigid.name));

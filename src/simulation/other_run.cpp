@@ -85,12 +85,14 @@ void refuse_other_laws(const Problem& other, const Problem& problem, const std::
     if (taken == problem.bodies.end()) continue;
     const MaterialSpec &before = other.materials.at(other.bodies[k].material),
                        &now = problem.materials.at(taken->material);
-    if (before.law == now.law || catalogue().law(now.law)->history_dependent) continue;
+    if (catalogue().law(now.law)->history_dependent || (before.law == now.law && before.undrained == now.undrained))
+      continue;
     throw_scene_error(
         fmt::format("material.{}.law", now.name),
         fmt::format("'{}' is a law without history, whose stress follows from its own deformation alone: it "
-                    "cannot take over the stress of '{}' in {}",
-                    now.law, before.law, problem.initial_from.string()));
+                    "cannot take over the stress of '{}'{} in {}",
+                    now.law, before.law, before.law == now.law ? before.undrained ? ", undrained," : ", drained," : "",
+                    problem.initial_from.string()));
   }
 }
 

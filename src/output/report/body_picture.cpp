@@ -277,7 +277,7 @@ BodyMoment moment_of(const LagrangianPhase& phase, double t, ConstVec u, ConstVe
   return {.t = t,
           .dim = phase.dim(),
           .points = phase.points(),
-          .history_names = phase.info().history_names,
+          .history_names = phase.info().law_fields,
           .field = [&phase, t, u, v](const std::string& name) {
             return name == "position" ? current_positions(phase, t, u) : point_field(phase, name, t, u, v);
           }};

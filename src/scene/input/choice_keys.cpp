@@ -86,6 +86,10 @@ std::vector<Key> joined(std::vector<Key> keys, const std::vector<Key>& more) {
   return keys;
 }
 
+bool dilates_by_psi(const LawInfo& law) {
+  return std::ranges::find(law.parameters, "psi", &ParameterInfo::name) != law.parameters.end();
+}
+
 }  // namespace
 
 std::vector<TableInfo> material_tables(const Catalogue& catalogue) {
@@ -98,21 +102,20 @@ std::vector<TableInfo> material_tables(const Catalogue& catalogue) {
   for (const LawInfo& law : catalogue.laws) {
     std::vector<Key>& of_law = keys[std::string(law.name)] = keys_of_choice<MaterialSpec>(law);
     of_law.insert(of_law.begin(), law_key);
-    if (law.history_dependent) {
-      of_law.push_back(key_of<MaterialSpec>("undrained", &MaterialSpec::undrained,
-                                            "saturated with water that cannot flow: the law is that of the effective "
-                                            "stress, and pore_pressure is a field",
-                                            {}));
-      of_law.push_back(key_of<MaterialSpec>(
-          "water_modulus", &MaterialSpec::water_modulus, "bulk modulus of the water in undrained ground",
-          {.range = kPositive, .unit = "Pa", .fallback = "such that the undrained Poisson's ratio is 0.495"}));
-      of_law.push_back(key_of<MaterialSpec>("porosity", &MaterialSpec::porosity, "share of the water in the volume",
-                                            {.range = {0, 1, false, true}, .unit = "1"}));
+    of_law.push_back(key_of<MaterialSpec>("undrained", &MaterialSpec::undrained,
+                                          "saturated with water that cannot flow: the law is that of the effective "
+                                          "stress, and pore_pressure is a field",
+                                          {}));
+    of_law.push_back(key_of<MaterialSpec>(
+        "water_modulus", &MaterialSpec::water_modulus, "bulk modulus of the water in undrained ground",
+        {.range = kPositive, .unit = "Pa", .fallback = "such that the undrained Poisson's ratio is 0.495"}));
+    of_law.push_back(key_of<MaterialSpec>("porosity", &MaterialSpec::porosity, "share of the water in the volume",
+                                          {.range = {0, 1, false, true}, .unit = "1"}));
+    if (dilates_by_psi(law))
       of_law.push_back(key_of<MaterialSpec>("undrained_dilatancy", &MaterialSpec::undrained_dilatancy,
                                             "undrained ground with psi > 0: what dilates draws the water apart, and "
                                             "becomes stronger without end",
                                             {}));
-    }
     if (law.from_library) {
       of_law.push_back(key_of<MaterialSpec>("library", &MaterialSpec::library,
                                             "shared library with the subroutine UMAT, beside the scene",

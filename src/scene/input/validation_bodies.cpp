@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "scene/body_solid.hpp"
 #include "scene/input/scene_check.hpp"
+#include "scene/pore_water.hpp"
 
 namespace stillpoint {
 namespace {
@@ -117,6 +118,15 @@ void check_dilation(SceneCheck& check, const MaterialSpec& material) {
   }
 }
 
+/// Water fills the pores of all directions: a side that is free to contract would need a law of its own.
+void check_change_of_volume(SceneCheck& check, const std::string& key, bool is_elastic) {
+  using enum StressState;
+  std::vector<StressState> states = {plane_strain, axisymmetric, space};
+  if (is_elastic) states.insert(states.begin(), uniaxial_strain);
+  const std::string why = why_no_state("undrained ground", states, check.scene().state);
+  check.wrong_if(!why.empty(), key, "{}", why);
+}
+
 void check_water(SceneCheck& check, const MaterialSpec& material) {
   const auto key = [&](const char* name) { return fmt::format("material.{}.{}", material.name, name); };
   for (const char* name : {"water_modulus", "porosity", "undrained_dilatancy"})
@@ -124,10 +134,17 @@ void check_water(SceneCheck& check, const MaterialSpec& material) {
   check.wrong_if(material.undrained && check.written(key("porosity")) && !material.water_modulus, key("porosity"),
                  "goes with water_modulus");
   if (!material.undrained) return;
-  check.wrong_if(!material.water_modulus && material.by_place.contains("E"), key("undrained"),
+  const LawInfo* const law = check.catalogue().law(material.law);
+  const bool is_elastic = law && !law->history_dependent;
+  check_change_of_volume(check, key("undrained"), is_elastic);
+  // The stress of an elastic law is proportional to E, with its water only if that is so as well.
+  check.wrong_if(is_elastic && material.water_modulus && material.by_place.contains("E"), key("water_modulus"),
+                 "does not go with an E that is a formula of the position: with '{}' water is as much stiffer as the "
+                 "skeleton is, so that the undrained Poisson's ratio is 0.495 everywhere",
+                 material.law);
+  check.wrong_if(!is_elastic && !material.water_modulus && material.by_place.contains("E"), key("undrained"),
                  "needs a water_modulus beside an E that is a formula of the position");
-  check.wrong_if(!material.water_modulus && !(material.parameters.contains("E") && material.parameters.contains("nu")),
-                 key("undrained"),
+  check.wrong_if(!material.water_modulus && !has_E_and_nu(material), key("undrained"),
                  "needs a water_modulus: with a law that has no E and nu there is no undrained Poisson's ratio");
   double psi = 0;
   if (const auto found = material.parameters.find("psi"); found != material.parameters.end()) psi = found->second;

@@ -36,6 +36,10 @@ bool check_material(SceneCheck& check, const SolutionInfo& solution) {
     if (check.wrong_if(!parameters.contains(modulus), key, "'{}' is one of E and nu, and the law '{}' has no {}",
                        solution.name, law->name, modulus))
       return false;
+  const bool is_finite_and_wet = material->second.undrained && law->finite_strain && !law->history_dependent;
+  if (check.wrong_if(is_finite_and_wet, key, "'{}' of the law '{}' is one without water; leave out undrained",
+                     solution.name, law->name))
+    return false;
   const std::vector<std::string> laws(solution.laws.begin(), solution.laws.end());
   return !check.wrong_if(!laws.empty() && std::ranges::find(laws, law->name) == laws.end(), key,
                          "'{}' is known for the law{} {}, not for '{}'", solution.name, laws.size() > 1 ? "s" : "",

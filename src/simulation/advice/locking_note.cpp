@@ -11,6 +11,7 @@
 
 #include "plan/catalogue.hpp"
 #include "scene/grid_lines.hpp"
+#include "scene/pore_water.hpp"
 #include "simulation/advice/notes.hpp"
 
 namespace stillpoint {
@@ -99,12 +100,14 @@ std::optional<std::string> locking_note(const Problem& problem) {
           "phase.dilatation = \"points\", or a c of {:.3g} Pa, {:g} of the weight of a cell",
           material.name, least_cohesion * weight_of_cell(problem, body, material), least_cohesion);
     if (flows(material) || shares) continue;
-    const auto nu = material.parameters.find("nu");
-    if (nu == material.parameters.end() || nu->second < nearly_incompressible(problem.grid.basis)) continue;
+    if (!has_E_and_nu(material)) continue;
+    const double nu = with_water(material).nu;
+    if (nu < nearly_incompressible(problem.grid.basis)) continue;
     return fmt::format(
-        "material.{} is nearly incompressible (nu = {:.6g}) at each of a cell's points, which makes the cells too "
+        "material.{} is nearly incompressible ({}nu = {:.6g}) at each of a cell's points, which makes the cells too "
         "stiff; expected phase.dilatation = \"{}\"",
-        material.name, nu->second, degree_of(problem.grid.basis) > 2 ? "splines" : "cells");
+        material.name, material.undrained ? "with its water, " : "", nu,
+        degree_of(problem.grid.basis) > 2 ? "splines" : "cells");
   }
   return std::nullopt;
 }

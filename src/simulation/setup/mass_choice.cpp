@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/pore_water.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "simulation/setup/multigrid_mass.hpp"
 #include "simulation/setup/set_up_state.hpp"
@@ -36,14 +37,13 @@ void refuse_phases(const Problem& problem, const Plan& plan) {
 void note_incompressible(SetUpState& set_up) {
   constexpr double slow_ratio = 20;
   for (const auto& [name, material] : set_up.problem.materials) {
-    const auto nu = material.parameters.find("nu");
-    if (nu == material.parameters.end()) continue;
-    const double lambda_over_mu = 2 * nu->second / (1 - 2 * nu->second);
+    if (!has_E_and_nu(material)) continue;
+    const double nu = with_water(material).nu, lambda_over_mu = 2 * nu / (1 - 2 * nu);
     if (!(lambda_over_mu >= slow_ratio)) continue;
     set_up.note(fmt::format(
-        "material.{} is nearly incompressible (nu = {:.6g}): with a multigrid mass, as without, evaluations grow with "
-        "the root of lambda/mu = {:.3g}",
-        material.name, nu->second, lambda_over_mu));
+        "material.{} is nearly incompressible ({}nu = {:.6g}): with a multigrid mass, as without, evaluations grow "
+        "with the root of lambda/mu = {:.3g}",
+        material.name, material.undrained ? "with its water, " : "", nu, lambda_over_mu));
   }
 }
 

@@ -28,12 +28,16 @@ class ElasticMaterial : public LawMaterialBase<Law> {
  protected:
   using Base::components, Base::law_, Base::begin_, Base::count_, Base::K;
   using typename Base::Block, typename Base::ModuliMatrix, typename Base::Tensor, typename Base::Stresses;
+  static constexpr bool has_water = requires(const Law& law, const Tensor& H) { law.pore_pressure(H); };
 
  public:
   ElasticMaterial(const Law& law, std::size_t begin, std::size_t count, bool updated_lagrangian,
                   bool E_by_place = false)
       : Base(law, begin, count,
-             {.finite_strain = Law::finite_strain, .stress_stays = true, .wave_modulus = law.moduli({})[0]}),
+             {.finite_strain = Law::finite_strain,
+              .stress_stays = true,
+              .pressure_by_deformation = has_water,
+              .wave_modulus = law.moduli({})[0]}),
         moved_(updated_lagrangian),
         E_by_place_(E_by_place) {
     memory_.assign((moved_ ? components : 0) * count, 0.0);
@@ -108,6 +112,10 @@ class ElasticMaterial : public LawMaterialBase<Law> {
     Stresses sigma = law_.cauchy(moved() ? total(H0(p), H) : H);
     for (double& component : sigma) component *= E_over_law(p);
     return sigma;
+  }
+  double pore_pressure(const Tensor& H, std::size_t p) const override {
+    if constexpr (has_water) return E_over_law(p) * law_.pore_pressure(moved() ? total(H0(p), H) : H);
+    return Base::pore_pressure(H, p);
   }
   double wave_modulus() const override {
     const double of_law = Base::wave_modulus();

@@ -48,6 +48,12 @@ class HistoryBase : public LawMaterialBase<Law> {
     }
   }
 
+  double pore_pressure(const TensorOf<kinematics(Law::state)>&, std::size_t p) const override {
+    for (std::size_t h = 0; h < rows_; ++h)
+      if (name_of(h) == "pore_pressure") return committed_[count_ * h + p - begin_];
+    return 0;
+  }
+
   std::vector<PointArray> arrays() const override {
     const double bytes = static_cast<double>(rows_) * Base::real;
     return {{"history, committed", bytes}, {"history, trial", bytes}};

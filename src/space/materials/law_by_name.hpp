@@ -9,6 +9,7 @@
 #include <stillpoint/mohr_coulomb.hpp>
 #include <stillpoint/neo_hookean.hpp>
 #include <stillpoint/undrained.hpp>
+#include <stillpoint/undrained_elastic.hpp>
 
 #include <memory>
 #include <stdexcept>
@@ -16,6 +17,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/pore_water.hpp"
 #include "space/materials/elastic_material.hpp"
 #include "space/materials/history_material.hpp"
 #include "space/materials/own_history_material.hpp"
@@ -46,17 +48,25 @@ std::shared_ptr<const HistoryAnswers> history_answers(const MaterialSpec& materi
 template <StressState S>
 Made<kinematics(S)> make_material_of(const MaterialSpec& material, std::size_t begin, std::size_t count,
                                      bool updated_lagrangian) {
-  if (auto answers = own_law_answers(material.law, S, material.parameters))
-    return std::make_unique<OwnMaterial<S>>(OwnLawAtPoint<S>(std::move(answers)), begin, count, updated_lagrangian);
+  const auto made = [&]<class Law>(const Law& law) -> Made<kinematics(S)> {
+    return std::make_unique<ElasticMaterial<Law>>(law, begin, count, updated_lagrangian,
+                                                  material.by_place.contains("E"));
+  };
+  const auto elastic = [&]<class Law>(const Law& law) -> Made<kinematics(S)> {
+    if constexpr (knows_volume(S))
+      if (material.undrained) return made(UndrainedElastic<Law>(law, water_stiffness(material)));
+    return made(law);
+  };
+  if (auto answers = own_law_answers(material.law, S, material.parameters)) {
+    const OwnLawAtPoint<S> law(std::move(answers));
+    if (material.undrained) return elastic(law);
+    return std::make_unique<OwnMaterial<S>>(law, begin, count, updated_lagrangian);
+  }
   if (auto answers = history_answers<S>(material))
     return std::make_unique<OwnHistoryMaterial<S>>(
         std::move(answers), fmt::format("material.{}.{}", material.name, material.library.empty() ? "law" : "library"),
         begin, count);
   const auto lame = [&] { return LameParameters::from(material.parameters.at("E"), material.parameters.at("nu")); };
-  const auto elastic = [&]<class Law>(const Law& law) -> Made<kinematics(S)> {
-    return std::make_unique<ElasticMaterial<Law>>(law, begin, count, updated_lagrangian,
-                                                  material.by_place.contains("E"));
-  };
   if (material.law == "linear-elastic") return elastic(LinearElastic<S>(lame()));
   if (material.law == "neo-hookean") return elastic(NeoHookean<S>(lame()));
   if (material.law == "hencky") return elastic(Hencky<S>(lame()));

@@ -231,15 +231,6 @@ bool is_viscous(const MaterialSpec& material) {
          beta->second > 0 && registry().maker(material.law).is_built_in();
 }
 
-// K_u = 2 G (1 + ν_u)/(3 (1 − 2 ν_u)) = K + K_w/n
-double water_stiffness(const MaterialSpec& material) {
-  if (material.water_modulus) return *material.water_modulus / material.porosity;
-  constexpr double nu_u = 0.495;
-  const double E = material.parameters.at("E"), nu = material.parameters.at("nu");
-  const double G = E / (2 * (1 + nu)), K = E / (3 * (1 - 2 * nu));
-  return std::max(0.0, 2 * G * (1 + nu_u) / (3 * (1 - 2 * nu_u)) - K);
-}
-
 MaterialSpec rate_independent(MaterialSpec material) {
   if (is_viscous(material)) material.parameters[fluidity] = 0;
   return material;

@@ -14,10 +14,6 @@ namespace stillpoint {
 
 class HistoryAnswers;
 
-/// K_w/n of an undrained material [Pa]: that of its water or, without one, such that the undrained Poisson's ratio is
-/// 0.495. Without one the law has to have E.
-double water_stiffness(const MaterialSpec& material);
-
 /// All laws, including those that the program has added.
 const std::vector<LawInfo>& material_laws();
 

@@ -73,10 +73,11 @@ using PointPlaces = std::function<PlaceOfPoint(std::size_t point)>;
 struct PointMaterialInfo {
   bool history_dependent = false;
   bool finite_strain = false;
-  bool viscous = false;          // material stressed beyond its strength flows for a while, at a finite rate
-  bool stress_stays = false;     // a zero increment returns the committed stress, to rounding
-  bool needs_pressure = false;   // the stiffness follows the stress: none without a pressure, and it may grow
-  std::size_t history_size = 0;  // entries of the committed history, and of a trial history
+  bool viscous = false;                  // material stressed beyond its strength flows for a while, at a finite rate
+  bool stress_stays = false;             // a zero increment returns the committed stress, to rounding
+  bool needs_pressure = false;           // the stiffness follows the stress: none without a pressure, and it may grow
+  bool pressure_by_deformation = false;  // whether it has a pore pressure, and no history that holds it
+  std::size_t history_size = 0;          // entries of the committed history, and of a trial history
   double wave_modulus = 0;  // λ + 2μ or the corresponding modulus of the undeformed state [Pa]; unless it follows
 };
 
@@ -125,6 +126,8 @@ class PointMaterial {
                               std::size_t p) const = 0;
   /// The Cauchy stress of point p under H, or that of the committed history if there is one.
   virtual Stresses cauchy(const TensorOf<K>& H, std::size_t p) const = 0;
+  /// The pressure of the water in the pores of point p under H, or that of the committed history; 0 if drained [Pa].
+  virtual double pore_pressure(const TensorOf<K>& /*H*/, std::size_t /*p*/) const { return 0; }
   /// The relation of the committed stress of point p to its strength; empty if the law has none.
   virtual std::optional<YieldState> yield_state(std::size_t /*p*/) const { return std::nullopt; }
   /// λ + 2μ of the undeformed state, the largest of all points; of a law whose stiffness follows the stress that of the

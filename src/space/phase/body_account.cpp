@@ -20,6 +20,7 @@ PhaseInfo BodyAccount<K>::describe(double total_mass, bool held_by_springs) cons
     remembers = remembers || material->info().history_dependent;
     finite_strain = finite_strain || material->info().finite_strain;
     follows_stress = follows_stress || material->info().needs_pressure;
+    if (material->info().pressure_by_deformation) names.insert("pore_pressure");
     for (const auto& [name, values] : material->shown_history()) names.insert(name);
   }
   return {.dim = dim,
@@ -27,7 +28,7 @@ PhaseInfo BodyAccount<K>::describe(double total_mass, bool held_by_springs) cons
           .stress_components = stillpoint::stress_components(K),
           .points = body_.numbers(),
           .total_mass = total_mass,
-          .history_names = {names.begin(), names.end()},
+          .law_fields = {names.begin(), names.end()},
           .updated_lagrangian = moves_on(),
           .remembers = remembers,
           .nonlinear = finite_strain || remembers,

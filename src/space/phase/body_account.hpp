@@ -35,7 +35,7 @@ class BodyAccount {
   double total_mass() const;
   /// origin: positions at the start of the run, (P × dim); empty if points do not move on.
   PointData point_data(const std::vector<double>& origin) const;
-  /// Writes one of PhaseInfo::history_names, (P).
+  /// Writes a field of PhaseFields::point_history(), (P).
   void history(const std::string& name, Vec out) const;
   /// The largest stress of a viscous law beyond its strength; empty: no law is viscous.
   std::optional<OverStress> over_stress() const;

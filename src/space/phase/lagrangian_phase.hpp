@@ -34,12 +34,12 @@ struct PhaseInfo {
   int gradient_components = 0;  // number in a displacement gradient (material.hpp)
   int stress_components = 0;    // number in a Cauchy stress
   std::size_t points = 0;
-  double total_mass = 0;                   // Σ m_p [kg]
-  std::vector<std::string> history_names;  // history variables of laws beside the stress ("plastic_strain")
-  bool updated_lagrangian = false;         // whether there will be further phases
-  bool remembers = false;                  // whether some law has a history
-  bool nonlinear = false;                  // whether K depends on u, so that frequencies change with it
-  bool may_touch = false;                  // whether rigid or other bodies may touch a body
+  double total_mass = 0;                // Σ m_p [kg]
+  std::vector<std::string> law_fields;  // of the laws' histories, beside the stress ("plastic_strain"), or of water
+  bool updated_lagrangian = false;      // whether there will be further phases
+  bool remembers = false;               // whether some law has a history
+  bool nonlinear = false;               // whether K depends on u, so that frequencies change with it
+  bool may_touch = false;               // whether rigid or other bodies may touch a body
   bool stiffens = false;  // whether a point can become stiffer than before, so that the critical step has to follow
   bool points_stiffen = false;   // by the material alone
   bool of_small_strain = false;  // whether all laws take a rotation for a strain
@@ -74,7 +74,7 @@ struct PointData {
 /// Quantities at the points: displacement since the run began, (P × dim); velocity Σ_i N_ip v_i, (P × dim); strain
 /// ∂u/∂x since the phase began, (P × gradient_components); Cauchy stress, (P × stress_components) [Pa], for a law with
 /// history that of the last commit; volume V_p det f_p, for a law of small strain V_p, (P) [m³].
-enum class PointQuantity { displacement, velocity, strain, stress, volume };
+enum class PointQuantity { displacement, velocity, strain, stress, pore_pressure, volume };
 
 /// The largest errors so far in the conservation of mass and momentum.
 struct TransferErrors {
@@ -163,7 +163,7 @@ class PhaseFields {
   virtual PointData point_data() const = 0;
   /// Writes a quantity at the points. nodal: u, or v for the velocity, (n).
   virtual void point_field(PointQuantity quantity, double t, ConstVec nodal, Vec out) const = 0;
-  /// Writes one of PhaseInfo::history_names, (P); 0 if the law of a point has no such variable.
+  /// Writes one of PhaseInfo::law_fields, (P), but for pore_pressure; 0 if the law of a point has no such variable.
   virtual void point_history(const std::string& name, Vec out) const = 0;
   /// Reads fields at positions of the body in its state (t, u, v).
   virtual std::unique_ptr<PlaceReader> read_places(double t, ConstVec u, ConstVec v) const = 0;

@@ -1,6 +1,7 @@
 // Fields of a phase, at its points and at positions of the body.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -49,11 +50,15 @@ class PhaseFieldsOf final : public PhaseFields {
     }
     if (quantity == PointQuantity::strain)
       return write(out, [&](std::size_t k, std::size_t p) { return weights.gradient(u, k, p); });
-    if (quantity == PointQuantity::stress) {
+    if (quantity == PointQuantity::stress || quantity == PointQuantity::pore_pressure) {
       const auto shared = all_.force.laws().shared_dilatation(u, *work);
       LawGradients<B, K> gradients(frame_.body, weights, shared, u);
-      return write(out,
-                   [&](std::size_t k, std::size_t p) { return frame_.material_of(k).cauchy(gradients.at(k, p), p); });
+      if (quantity == PointQuantity::stress)
+        return write(out,
+                     [&](std::size_t k, std::size_t p) { return frame_.material_of(k).cauchy(gradients.at(k, p), p); });
+      return write(out, [&](std::size_t k, std::size_t p) {
+        return std::array{frame_.material_of(k).pore_pressure(gradients.at(k, p), p)};
+      });
     }
     write(out, [&](std::size_t k, std::size_t p) {
       auto u_p = weights.value(u, k, p);

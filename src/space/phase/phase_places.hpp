@@ -100,28 +100,39 @@ class PhasePlaces final : public PlaceReader {
     for (std::size_t s = 0; s < shares.size(); ++s)
       for (std::size_t i = 0; i < out.size(); ++i) out[i] += shares[s].weight * stresses[out.size() * s + i];
   }
+  double pore_pressure(ConstVec x) const override {
+    return of_material(x, [this](const PointMaterial<K>& material, std::size_t k, std::size_t p, std::size_t) {
+      return material.pore_pressure(gradient_(k, p), p);
+    });
+  }
   double history(const std::string& name, ConstVec x) const override {
-    const Point<dim> at = point_at(x);
-    if (!place_of(at)) return no_value;
-    const auto shares = around_.fit(at, degree_);
-    const auto material = static_cast<std::size_t>(shares.front().point.material);  // shared by all of them
-    const auto begin = static_cast<std::size_t>(body_.points.material_begin[material]);
-    for (const auto& [shown, values] : body_.materials[material]->shown_history()) {
-      if (shown != name) continue;
-      const std::vector<double> of_points = around_.values(
-          shares, 1,
-          [begin, of_material = values](std::size_t, std::size_t p, Vec out) { out[0] = of_material[p - begin]; });
-      double sum = 0, least = 0;
-      for (std::size_t s = 0; s < shares.size(); ++s) {
-        sum += shares[s].weight * of_points[s];
-        least = std::min(least, of_points[s]);
-      }
-      return std::max(sum, least);
-    }
-    return 0;
+    return of_material(x, [&name](const PointMaterial<K>& material, std::size_t, std::size_t, std::size_t of_material) {
+      for (const auto& [shown, values] : material.shown_history())
+        if (shown == name) return values[of_material];
+      return 0.0;
+    });
   }
 
  private:
+  // The value at x by those of the points around, value_at(material, occupied cell, point, its number in the material).
+  template <class ValueAt>
+  double of_material(ConstVec x, const ValueAt& value_at) const {
+    const Point<dim> at = point_at(x);
+    if (!place_of(at)) return no_value;
+    const auto shares = around_.fit(at, degree_);
+    const auto number = static_cast<std::size_t>(shares.front().point.material);  // shared by all of them
+    const PointMaterial<K>& material = *body_.materials[number];
+    const auto begin = static_cast<std::size_t>(body_.points.material_begin[number]);
+    const std::vector<double> of_points = around_.values(
+        shares, 1, [&](std::size_t k, std::size_t p, Vec out) { out[0] = value_at(material, k, p, p - begin); });
+    double sum = 0, least = 0;
+    for (std::size_t s = 0; s < shares.size(); ++s) {
+      sum += shares[s].weight * of_points[s];
+      least = std::min(least, of_points[s]);
+    }
+    return std::max(sum, least);
+  }
+
   static Point<dim> point_at(ConstVec x) {
     Point<dim> at;
     std::copy_n(x.begin(), dim, at.begin());

@@ -35,7 +35,9 @@ class PlaceReader {
   virtual void strain(ConstVec x, Vec out) const = 0;
   /// The Cauchy stress, (stress components) [Pa].
   virtual void stress(ConstVec x, Vec out) const = 0;
-  /// The value of one of PhaseInfo::history_names. It is negative only if it is so at some point.
+  /// That of the water in the pores; 0 in drained ground [Pa]. As history() in its sign.
+  virtual double pore_pressure(ConstVec x) const = 0;
+  /// The value of one of PhaseInfo::law_fields, but for pore_pressure. It is negative only if it is so at some point.
   virtual double history(const std::string& name, ConstVec x) const = 0;
 };
 

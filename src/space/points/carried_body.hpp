@@ -75,15 +75,18 @@ struct CarriedMaterial {
         for (std::size_t k = 0; k < count; ++k) rows.push_back(H[begin + k][c]);
       carried.memory.insert(carried.memory.begin(), rows.begin(), rows.end());
     }
-    for (const auto& [name, values] : material.shown_history()) {
+    std::vector<double> pressure;
+    for (std::size_t k = 0; k < count; ++k) {
+      pressure.push_back(material.pore_pressure(H.empty() ? TensorOf<K>{} : H[begin + k], begin + k));
+      for (std::size_t a = 0; a < std::min<std::size_t>(3, stresses); ++a)
+        carried.stress[stresses * k + a] += pressure[k];
+    }
+    const auto show = [&carried](const std::string& name, ConstVec values) {
       carried.names.push_back(name);
       carried.shown.insert(carried.shown.end(), values.begin(), values.end());
-      if (name != "pore_pressure") continue;
-      for (std::size_t k = 0; k < count; ++k) {
-        for (std::size_t a = 0; a < std::min<std::size_t>(3, stresses); ++a)
-          carried.stress[stresses * k + a] += values[k];
-      }
-    }
+    };
+    for (const auto& [name, values] : material.shown_history()) show(name, values);
+    if (material.info().pressure_by_deformation) show("pore_pressure", pressure);
     return carried;
   }
   std::array<double, stresses> stress_at(std::size_t k) const {

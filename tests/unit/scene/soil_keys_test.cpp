@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "files.hpp"
 #include "largest.hpp"
@@ -102,7 +103,19 @@ TEST_CASE("soil that cannot be is refused by name") {
   CHECK(asked.materials.at("soil").undrained_dilatancy);
   CHECK_THAT(scenes::refusal("stable_slope", {soil + "c=1e3*(11 - y)", soil + "softening=[[0.1, 1e3, 20, 0]]"}),
              Catch::Contains("softening: does not go with a cohesion that is a formula"));
-  CHECK_THAT(scenes::refusal("column", {"material.soil.undrained=true"}), Catch::Contains("unknown key 'undrained'"));
+  for (const char* law : {"linear-elastic", "neo-hookean", "hencky"}) {
+    CAPTURE(law);
+    const std::vector<std::string> wet = {fmt::format("material.soil.law={}", law), soil + "undrained=true"};
+    CHECK(scenes::refusal("column", wet).empty());
+    CHECK_THAT(scenes::refusal("column", scenes::with(wet, {"body.state=plane-stress"})),
+               Catch::Contains("material.soil.undrained: undrained ground has no state 'plane-stress'"));
+    const std::vector<std::string> E = {soil + "E=1e6*(1 + y)"};
+    CHECK(scenes::refusal("column", scenes::with(wet, E)).empty());
+    CHECK_THAT(scenes::refusal("column", scenes::with(wet, scenes::with(E, {soil + "water_modulus=2e9"}))),
+               Catch::Contains("water_modulus: does not go with an E that is a formula of the position"));
+    CHECK_THAT(scenes::refusal("column", scenes::with(wet, {soil + "undrained_dilatancy=true"})),
+               Catch::Contains("unknown key 'undrained_dilatancy'"));
+  }
 }
 
 TEST_CASE("Cam clay says what it misses, and what of its parameters goes together") {
@@ -167,7 +180,7 @@ TEST_CASE("clay in level ground has the p_c of the largest vertical stress that 
 TEST_CASE("undrained ground has a pore pressure and an effective stress among its fields") {
   const auto dry = make_phase(scenes::load("stable_slope", {}));
   const auto wet = make_phase(scenes::load("stable_slope", {soil + "undrained=true"}));
-  const auto names = [](const auto& phase) { return phase->info().history_names; };
+  const auto names = [](const auto& phase) { return phase->info().law_fields; };
   CHECK_THAT(names(wet), Catch::VectorContains(std::string("pore_pressure")));
   CHECK_THAT(names(dry), !Catch::VectorContains(std::string("pore_pressure")));
 }

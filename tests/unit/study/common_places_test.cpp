@@ -29,6 +29,7 @@ class Known final : public PlaceReader {
   void put_back(Vec) const override {}
   void velocity(ConstVec, Vec) const override {}
   void strain(ConstVec, Vec) const override {}
+  double pore_pressure(ConstVec) const override { return 0; }
   double history(const std::string&, ConstVec) const override { return 0; }
 };
 

@@ -2,6 +2,7 @@
 #include <stillpoint/hencky.hpp>
 #include <stillpoint/linear_elastic.hpp>
 #include <stillpoint/neo_hookean.hpp>
+#include <stillpoint/undrained_elastic.hpp>
 
 #include <algorithm>
 
@@ -19,6 +20,20 @@ namespace {
 #define STATES_OF(Law) \
   Law<uniaxial_stress>, Law<uniaxial_strain>, Law<plane_strain>, Law<plane_stress>, Law<axisymmetric>, Law<space>
 #define SOLID_STATES_OF(Law) Law<plane_strain>, Law<plane_stress>, Law<axisymmetric>, Law<space>
+
+/// A law whose pores are full of water that cannot flow.
+template <class Law>
+struct Wet : UndrainedElastic<Law> {
+  static constexpr double stiffness = 5 * young;
+  explicit Wet(const LameParameters& m) : UndrainedElastic<Law>(Law(m), stiffness) {}
+};
+template <StressState S>
+using WetLinear = Wet<LinearElastic<S>>;
+template <StressState S>
+using WetNeoHookean = Wet<NeoHookean<S>>;
+template <StressState S>
+using WetHencky = Wet<Hencky<S>>;
+#define WET_STATES_OF(Law) Law<uniaxial_strain>, Law<plane_strain>, Law<axisymmetric>, Law<space>
 
 static_assert(ElasticLaw<LinearElastic<plane_stress>> && ElasticLaw<NeoHookean<axisymmetric>> &&
               ElasticLaw<Hencky<plane_strain>>);
@@ -59,7 +74,8 @@ TEST_CASE("Hooke's law in the plane: its moduli, and what it does across the pla
 // --- every elastic law ----------------------------------------------------------------------------
 
 TEMPLATE_TEST_CASE("moduli are the derivative of the stress, in every stress state", "", STATES_OF(LinearElastic),
-                   STATES_OF(NeoHookean), STATES_OF(Hencky)) {
+                   STATES_OF(NeoHookean), STATES_OF(Hencky), WET_STATES_OF(WetLinear), WET_STATES_OF(WetNeoHookean),
+                   WET_STATES_OF(WetHencky)) {
   const TestType law(lame);
   for (const auto& H : checks::deformations<TestType::state>()) {
     const auto exact = checks::differences<TestType::state>([&](const auto& at) { return law.first_piola(at); }, H);
@@ -68,7 +84,8 @@ TEMPLATE_TEST_CASE("moduli are the derivative of the stress, in every stress sta
 }
 
 TEMPLATE_TEST_CASE("an elastic stress derives from an energy: its moduli are symmetric", "", STATES_OF(LinearElastic),
-                   STATES_OF(NeoHookean), STATES_OF(Hencky)) {
+                   STATES_OF(NeoHookean), STATES_OF(Hencky), WET_STATES_OF(WetLinear), WET_STATES_OF(WetNeoHookean),
+                   WET_STATES_OF(WetHencky)) {
   constexpr int n = gradient_components(TestType::state);
   const TestType law(lame);
   for (const auto& H : checks::deformations<TestType::state>()) {
@@ -108,7 +125,7 @@ TEMPLATE_TEST_CASE("elasticity at finite strain agrees with Hooke's law at small
 }
 
 TEMPLATE_TEST_CASE("a rotation after the deformation turns the stress with it", "", SOLID_STATES_OF(NeoHookean),
-                   SOLID_STATES_OF(Hencky)) {
+                   SOLID_STATES_OF(Hencky), WetNeoHookean<plane_strain>, WetHencky<axisymmetric>, WetHencky<space>) {
   constexpr StressState S = TestType::state;
   const TestType law(lame);
   using Tensor = TensorFor<S>;
@@ -121,7 +138,7 @@ TEMPLATE_TEST_CASE("a rotation after the deformation turns the stress with it", 
 
 TEMPLATE_TEST_CASE("P is det(F) sigma F^-T, in the plane, around the axis and in space", "", NeoHookean<plane_strain>,
                    NeoHookean<axisymmetric>, NeoHookean<space>, Hencky<plane_strain>, Hencky<axisymmetric>,
-                   Hencky<space>) {
+                   Hencky<space>, WetNeoHookean<plane_strain>, WetHencky<axisymmetric>, WetHencky<space>) {
   constexpr StressState S = TestType::state;
   const TestType law(lame);
   for (const auto& H : checks::deformations<S>()) {
@@ -167,6 +184,65 @@ TEMPLATE_TEST_CASE("a material turned inside out is not a number, so that the tr
 TEMPLATE_TEST_CASE("a bar turned inside out is not a number", "", NeoHookean<uniaxial_stress>,
                    NeoHookean<uniaxial_strain>, Hencky<uniaxial_stress>, Hencky<uniaxial_strain>) {
   CHECK(std::isnan(TestType(lame).first_piola({-1.1})[0]));
+}
+
+// --- undrained ground ---------------------------------------------------------------------------------
+
+TEMPLATE_TEST_CASE("Hooke's law with water that cannot flow is Hooke's law with lambda + K_w/n", "",
+                   WET_STATES_OF(WetLinear)) {
+  constexpr StressState S = TestType::state;
+  const TestType wet(lame);
+  const LinearElastic<S> stiffer({lame.lambda + TestType::stiffness, lame.mu});
+  for (const auto& H : checks::deformations<S>()) {
+    CHECK(checks::relative_distance(wet.first_piola(H), stiffer.first_piola(H)) < 1e-14);
+    CHECK(checks::relative_distance(wet.cauchy(H), stiffer.cauchy(H)) < 1e-14);
+    CHECK(checks::relative_distance(wet.moduli(H), stiffer.moduli(H)) < 1e-14);
+  }
+}
+
+TEMPLATE_TEST_CASE("the pore pressure is that of the volume, and the effective stress that of the law", "",
+                   WET_STATES_OF(WetNeoHookean), WET_STATES_OF(WetHencky)) {
+  constexpr StressState S = TestType::state;
+  const TestType wet(lame);
+  const auto law = [] {
+    if constexpr (std::is_same_v<TestType, WetHencky<S>>)
+      return Hencky<S>(lame);
+    else
+      return NeoHookean<S>(lame);
+  }();
+  for (const auto& H : checks::deformations<S>()) {
+    double J = 1;
+    if constexpr (dimensions(S) == 1)
+      J += H[0];
+    else
+      J = determinant(deformation_gradient<S>(H));
+    const double p_w = wet.pore_pressure(H);
+    CHECK(p_w == Approx(-TestType::stiffness * std::log(J)).epsilon(1e-10).margin(1e-12));  // J rounds
+    Stress<S> effective = wet.cauchy(H);
+    for (std::size_t a = 0; a < std::min<std::size_t>(3, effective.size()); ++a) effective[a] += p_w;
+    CHECK(checks::relative_distance(effective, law.cauchy(H)) < 1e-13);
+  }
+}
+
+TEMPLATE_TEST_CASE("undrained ground has its rate in a direction from its moduli, at small strains as well", "",
+                   WET_STATES_OF(WetNeoHookean), WET_STATES_OF(WetHencky)) {
+  constexpr StressState S = TestType::state;
+  constexpr int n = gradient_components(S);
+  const TestType wet(lame);
+  Gradient<S> dH;
+  for (int c = 0; c < n; ++c) dH[c] = 0.3 - 0.17 * c;
+  for (const auto& H : checks::deformations<S>()) {
+    const auto A = wet.moduli(H);
+    Gradient<S> along{};
+    for (int a = 0; a < n; ++a)
+      for (int b = 0; b < n; ++b) along[a] += A[n * a + b] * dH[b];
+    CHECK(checks::relative_distance(wet.rate(H, dH), along) < 1e-12);
+    if constexpr (requires { wet.is_small(H); }) {
+      if (!wet.is_small(H)) continue;
+      CHECK(checks::relative_distance(wet.rate_of_small(H, dH), along) < 1e-12);
+      CHECK(checks::relative_distance(wet.first_piola_of_small(H), wet.first_piola(H)) < 1e-12);
+    }
+  }
 }
 
 // --- the neo-Hookean law --------------------------------------------------------------------------
