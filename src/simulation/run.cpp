@@ -47,8 +47,10 @@ Summary leave_stopped_set_up(const Problem& problem, const SimulationOptions& op
 }
 
 // lock: it locks the folder from when the run begins.
+// has_begun: set to whether the run got beyond its set-up.
 Summary simulate(const Scene& scene, const SimulationOptions& options, RunReport& report,
-                 std::shared_ptr<FolderLock>& lock) {
+                 std::shared_ptr<FolderLock>& lock, bool& has_begun) {
+  has_begun = true;
   try {
     Simulation simulation(scene, options);
     if (const auto folder = own_folder(options); !folder.empty()) lock = lock_folder(folder);
@@ -57,6 +59,7 @@ Summary simulate(const Scene& scene, const SimulationOptions& options, RunReport
     if (report.looks_at_body() && simulation.parts().is_readable) report.end(now(simulation));
     return simulation.summary();
   } catch (const SetUpStopped& stopped) {
+    has_begun = false;
     return leave_stopped_set_up(scene, options, stopped);
   }
 }
@@ -68,11 +71,15 @@ Summary run(const Scene& scene, const SimulationOptions& options) {
   const std::filesystem::path folder = own_folder(options);
   if (std::filesystem::is_directory(folder)) lock = lock_folder(folder);  // before a set-up, which may be long
   RunReport report(scene, options.out);
-  Summary summary = simulate(scene, options, report, lock);
-  if (folder.empty()) return summary;
-  const std::string json = to_json(summary), page = report.page(summary);  // before either is written
-  write_file(folder / "summary.json", json);
-  write_file(folder / report_name, page);
+  bool has_begun = false;
+  Summary summary = simulate(scene, options, report, lock, has_begun);
+  if (!folder.empty()) {
+    const std::string json = to_json(summary), page = report.page(summary);  // before either is written
+    write_file(folder / "summary.json", json);
+    write_file(folder / report_name, page);
+  }
+  // In a set-up each rank hears for itself that it is to end, and others may wait for it.
+  if (options.ranks && !has_begun) options.ranks->fails_with_all(summary.exit_status, "stillpoint: " + summary.reason);
   return summary;
 }
 

@@ -65,7 +65,7 @@ RunState::RunState(RunState& before, Scene of, StageBegin begins)
 }
 
 Model RunState::set_up() {
-  const StopScope scope(asks_to_end());
+  const StopScope scope(stage.number == 0 ? asks_this_rank_to_end() : asks_to_end());
   try {
     heed_stop_request();
     if (options.ranks) refuse_what_ranks_lack(scene);
@@ -126,6 +126,12 @@ Verdict RunState::failed(const std::string& what) const {
 
 // Ranks come to an end together: between two steps, or where they hear of a wish at the same place.
 std::function<bool()> RunState::asks_to_end() { return options.ranks ? nullptr : asks_all_to_end(); }
+
+// Before a run has begun there is nothing that ranks would have to leave together.
+std::function<bool()> RunState::asks_this_rank_to_end() {
+  if (!options.stops) return {};
+  return [this] { return end_request.asked(); };
+}
 
 std::function<bool()> RunState::asks_all_to_end() {
   if (!options.stops) return {};

@@ -49,6 +49,7 @@ struct RunState {
   std::function<bool()> asks_to_end();
   /// The same in work in which all ranks ask it as often after they have gathered.
   std::function<bool()> asks_all_to_end();
+  std::function<bool()> asks_this_rank_to_end();
   /// The verdict that the run has failed now: "at t = 0.31 s, after 120 steps, in phase 3: " and what happened.
   Verdict failed(const std::string& what) const;
 

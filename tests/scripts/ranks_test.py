@@ -84,9 +84,24 @@ def _(folder):
         check_same(folder / str(k), "cantilever.toml", *overrides, counts=(3,), status=3 if len(overrides) > 1 else 0)
 
 
+@claim("means over splines, and parts that rest, are the same on any number of ranks, as is Newton's matrix of such means")
+def _(folder):
+    over_splines = ("phase.dilatation=splines", "grid.basis=quadratic")
+    scenes = (
+        ("slope.toml", "stop.time=0.2", "output.every=0.05", "phase.max_motion=0.02", *over_splines),
+        ("incompressible.toml", "solve.method=newton", *over_splines),
+        ("slope.toml", "stop.time=3", "phase.rest=0.01"),
+    )
+    for k, (scene, *overrides) in enumerate(scenes):
+        (folder / str(k)).mkdir()
+        check_same(folder / str(k), scene, *overrides, counts=(3,))
+    assert json.loads((folder / "2/1/summary.json").read_text())["resting_points"] > 0
+
+
 @claim("a run that is killed goes on from its checkpoint on any number of ranks, whatever number had left it")
 def _(folder):
-    scene = ("slope.toml", "stop.time=0.4", "output.every=0.05", "checkpoint.every_steps=20", "phase.max_motion=0.02")
+    scene = ("slope.toml", "stop.time=0.4", "output.every=0.05", "checkpoint.every_steps=20", "phase.max_motion=0.02",
+             "phase.dilatation=cells")  # fmt: skip
     assert run(1, scene[0], folder / "whole", *scene[1:]).returncode == 0
     for before, after in ((3, 1), (1, 2)):
         out = folder / f"{before}-{after}"
@@ -132,8 +147,8 @@ def _(folder):
 
 @claim("what ranks do not share is refused once, by its name, with status 2, and nothing is written")
 def _(folder):
-    result = run(2, "slope.toml", folder / "out", "phase.rest=1e-3")
-    assert result.returncode == 2 and result.stderr.count("parts do not rest where ranks share the points yet") == 1, result
+    result = run(2, "slope.toml", folder / "out", "phase.quadrature=domains")
+    assert result.returncode == 2 and result.stderr.count("domains are not shared among ranks yet") == 1, result
     assert not (folder / "out").exists()
 
 
@@ -190,6 +205,15 @@ def _(folder):
     assert result.returncode == 3, result
     assert time.monotonic() - begun < 60
     assert json.loads((folder / "out/summary.json").read_text())["status"] == "time-limit"
+
+
+@claim("ranks heed in the set-up that the time is over, within seconds and with the status of one process")
+def _(folder):
+    begun = time.monotonic()
+    result = run(2, "cantilever.toml", folder / "out", "damping.c=critical", "grid.cells=[2000,100]", "stop.wall_time=0.2")
+    assert result.returncode == 3, result
+    assert "in the set-up; the run has not begun" in result.stdout + result.stderr, result
+    assert time.monotonic() - begun < 30
 
 
 check_the_claim()

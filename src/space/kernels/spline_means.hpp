@@ -32,6 +32,7 @@
 #include "base/parallel_loop.hpp"
 #include "space/grid/basis.hpp"
 #include "space/grid/domain_basis.hpp"
+#include "space/kernels/cell_order.hpp"
 #include "space/kernels/corner_sum.hpp"
 #include "space/materials/point_material.hpp"
 #include "space/points/material_points.hpp"
@@ -61,21 +62,24 @@ class SplineMeans {
     std::vector<double> first, next;  // (functions)
   };
 
-  /// Prepares for the points of a phase, which must outlive this object or the next rebuild().
-  void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points) {
+  /// Prepares for the points of a phase, which must outlive this object or the next rebuild(). ranks: that share them.
+  void rebuild(const Grid<dim>& grid, const MaterialPoints<dim>& points, const Ranks* ranks) {
     points_ = &points;
     evaluate(grid);
-    number_functions(grid);
-    weigh();
+    const std::vector<CellPlace> places = places_of_cells(points), all = in_cell_order(ranks, places, places);
+    const std::vector<int> of_all = numbered_functions(grid, all);
+    function_ = own_functions(places, all, of_all);
+    corner_sum_.rebuild(function_, count_, ranks, places);
+    weigh(of_all, in_cell_order(ranks, places, weights_of_cells()));
   }
   /// Gives the sums of an evaluation their sizes in the present phase.
   void resize(Sums& sums) const {
-    sums.corner.resize(per_cell * points_->cells());
+    sums.corner.resize(corner_sum_.corners() + CornerSum::slack);
     for (auto* of_functions : {&sums.first, &sums.next}) of_functions->resize(functions());
   }
 
   /// The number of functions that reach a point, over all materials.
-  std::size_t functions() const { return corner_sum_.functions(); }
+  std::size_t functions() const { return count_; }
   /// Number of local function a in occupied cell k.
   int function(std::size_t k, int a) const { return function_[per_cell * k + static_cast<std::size_t>(a)]; }
   /// The matrix G.
@@ -134,8 +138,10 @@ class SplineMeans {
   /// + (I − m⁻¹ M) c.
   void coefficients(Sums& sums, std::vector<double>& c) const {
     std::vector<double>&first = sums.first, &next = sums.next;
-    for_each_block(functions(),
-                   [&](std::size_t A) { first[A] = inverse_m_[A] * corner_sum_.sum<1>(A, sums.corner.data())[0]; });
+    corner_sum_.for_functions(sums.corner.data(), 1, [&](std::size_t A) {
+      first[A] = inverse_m_[A] * corner_sum_.sum<1>(A, sums.corner.data())[0];
+    });
+    corner_sum_.complete(first.data(), 1);
     c = first;
     for (int j = 1; j < terms; ++j) {
       for_each_block(functions(), [&](std::size_t A) {
@@ -183,40 +189,65 @@ class SplineMeans {
       }
     });
   }
-  void number_functions(const Grid<dim>& grid) {
+  // The functions of these cells, (cells × per_cell), in the order in which cells come to them. Sets their number.
+  std::vector<int> numbered_functions(const Grid<dim>& grid, const std::vector<CellPlace>& cells) {
     const auto offset = Basis::offsets(grid);
     const auto of_grid = static_cast<std::size_t>(Basis::count(grid));
-    std::vector<int> number(of_grid * points_->materials(), -1);
+    std::vector<int> number(of_grid * points_->materials(), -1), functions(per_cell * cells.size());
     int next = 0;
-    function_.resize(per_cell * points_->cells());
-    for (std::size_t k = 0; k < points_->cells(); ++k) {
-      const std::size_t first = of_grid * static_cast<std::size_t>(points_->material_of_cell(k)) +
-                                static_cast<std::size_t>(Basis::first(grid, grid.cell_at(points_->cell[k])));
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      const std::size_t first = of_grid * static_cast<std::size_t>(cells[k].material) +
+                                static_cast<std::size_t>(Basis::first(grid, grid.cell_at(cells[k].cell)));
       for (std::size_t a = 0; a < per_cell; ++a) {
         int& known = number[first + static_cast<std::size_t>(offset[a])];
         if (known < 0) known = next++;
-        function_[per_cell * k + a] = known;
+        functions[per_cell * k + a] = known;
       }
     }
-    corner_sum_.rebuild(function_, static_cast<std::size_t>(next));
+    count_ = static_cast<std::size_t>(next);
+    return functions;
   }
-  // Computes m⁻¹ and I − m⁻¹ M. Functions that no point reaches have no mean, and none is needed.
-  void weigh() {
-    inverse_m_.assign(functions(), 0);
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(per_cell * per_cell * points_->cells());
-    for (std::size_t k = 0; k < points_->cells(); ++k) {
-      std::array<OfCell, static_cast<std::size_t>(per_cell)> M{};
+  // Those of the cells of this rank among all.
+  static std::vector<int> own_functions(const std::vector<CellPlace>& own, const std::vector<CellPlace>& all,
+                                        const std::vector<int>& of_all) {
+    if (own.size() == all.size()) return of_all;
+    std::vector<int> functions;
+    functions.reserve(per_cell * own.size());
+    for (const CellPlace& place : own) {
+      const auto first = of_all.begin() + per_cell * (std::ranges::lower_bound(all, place) - all.begin());
+      functions.insert(functions.end(), first, first + per_cell);
+    }
+    return functions;
+  }
+  // The sums over the points of a cell, Σ V_p N_pA and Σ V_p N_pA N_pB.
+  struct WeightsOfCell {
+    OfCell m{};
+    std::array<OfCell, static_cast<std::size_t>(per_cell)> M{};
+  };
+  std::vector<WeightsOfCell> weights_of_cells() const {
+    std::vector<WeightsOfCell> cells(points_->cells());
+    for_each_block(cells.size(), [&](std::size_t k) {
       for (std::size_t p = points_->begin(k); p < points_->end(k); ++p) {
         const OfCell weight = N(p);
         for (std::size_t a = 0; a < per_cell; ++a) {
-          inverse_m_[static_cast<std::size_t>(function_[per_cell * k + a])] += points_->volume[p] * weight[a];
-          for (std::size_t b = 0; b < per_cell; ++b) M[a][b] += points_->volume[p] * weight[a] * weight[b];
+          cells[k].m[a] += points_->volume[p] * weight[a];
+          for (std::size_t b = 0; b < per_cell; ++b) cells[k].M[a][b] += points_->volume[p] * weight[a] * weight[b];
         }
       }
+    });
+    return cells;
+  }
+  // Computes m⁻¹ and I − m⁻¹ M from all cells, whose functions these are. Functions that no point reaches have no mean,
+  // and none is needed.
+  void weigh(const std::vector<int>& functions_of_cells, const std::vector<WeightsOfCell>& cells) {
+    inverse_m_.assign(functions(), 0);
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(per_cell * per_cell * cells.size());
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      const int* const of_cell = functions_of_cells.data() + per_cell * k;
       for (std::size_t a = 0; a < per_cell; ++a) {
-        for (std::size_t b = 0; b < per_cell; ++b)
-          entries.emplace_back(function_[per_cell * k + a], function_[per_cell * k + b], M[a][b]);
+        inverse_m_[static_cast<std::size_t>(of_cell[a])] += cells[k].m[a];
+        for (std::size_t b = 0; b < per_cell; ++b) entries.emplace_back(of_cell[a], of_cell[b], cells[k].M[a][b]);
       }
     }
     for (double& of_function : inverse_m_) of_function = of_function > 0 ? 1 / of_function : 0;
@@ -236,6 +267,7 @@ class SplineMeans {
 
   const MaterialPoints<dim>* points_ = nullptr;
   std::vector<double> weight_;  // (P × weights_of_point)
+  std::size_t count_ = 0;       // number of functions
   std::vector<int> function_;   // (cells × per_cell)
   CornerSum corner_sum_;
   std::vector<double> inverse_m_;  // (functions) [1/m³]

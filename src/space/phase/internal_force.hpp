@@ -72,7 +72,7 @@ class InternalForce {
     state("committed_u", Vec(committed_.u));
     state("committed_t", committed_.t);
     state("materials_are_new", materials_are_new_);
-    if (laws_.share_dilatation()) state("committed_effects_of_averages", Vec(committed_.averages));
+    if (state.restores()) laws_.commit_averages(*borrow());
   }
   /// Work arrays of the present phase; those over the functions are 0 where no unknown is.
   Loan borrow() const {

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "space/kernels/cell_assembly.hpp"
+#include "space/kernels/cell_order.hpp"
 #include "space/kernels/gather_scatter_bilinear.hpp"
 #include "space/kernels/mean_dilatation.hpp"
 #include "space/materials/moduli_of.hpp"
@@ -91,8 +93,10 @@ class MatrixOfMeans {
     const SplineMeans<B, K>& splines = laws_.splines();
     const SplinePass<B, K> pass(splines, laws_.volumes(), {.means = &work_.means, .shares = &work_.shares}, nullptr);
     const DegreesOfFreedom& dofs = frame_.dofs();
-    MatrixEntries force_of_mean, share_of_u, mean_of_u, share_of_mean;
+    const Ranks* const ranks = frame_.ranks;
+    Entries force_of_mean(ranks), share_of_u(ranks), mean_of_u(ranks), share_of_mean(ranks);
     const auto add_cell = [&](std::size_t k, Matrix& matrix) {
+      const CellPlace place = place_of_cell(points_, k);
       MixedCellMatrix<unknowns, per_cell_of_means> mixed;
       for_parts_of_cell(k, [&] { add_part(k, pass, matrix, mixed); });
       for (int u = 0; u < unknowns; ++u) {
@@ -100,22 +104,40 @@ class MatrixOfMeans {
           if (!dofs.is_free(dof)) return;
           for (int a = 0; a < per_cell_of_means; ++a) {
             const int A = splines.function(k, a);
-            force_of_mean.emplace_back(dof, A, weight * mixed.force_of_mean[u][a]);
-            share_of_u.emplace_back(A, dof, weight * mixed.share_of_u[a][u]);
-            mean_of_u.emplace_back(A, dof, weight * mixed.mean_of_u[a][u]);
+            force_of_mean.add(place, dof, A, weight * mixed.force_of_mean[u][a]);
+            share_of_u.add(place, A, dof, weight * mixed.share_of_u[a][u]);
+            mean_of_u.add(place, A, dof, weight * mixed.mean_of_u[a][u]);
           }
         });
       }
       for (int a = 0; a < per_cell_of_means; ++a) {
         for (int b = 0; b < per_cell_of_means; ++b)
-          share_of_mean.emplace_back(splines.function(k, a), splines.function(k, b), mixed.share_of_mean[a][b]);
+          share_of_mean.add(place, splines.function(k, a), splines.function(k, b), mixed.share_of_mean[a][b]);
       }
     };
     const SparseMatrix K_uu = assembled(add_cell);
-    return matrix_with_means(K_uu, splines.matrix(), {force_of_mean, share_of_u, mean_of_u, share_of_mean});
+    return matrix_with_means(K_uu, splines.matrix(),
+                             {force_of_mean.of_all(), share_of_u.of_all(), mean_of_u.of_all(), share_of_mean.of_all()});
   }
 
  private:
+  // Entries of a matrix, cell by cell.
+  class Entries {
+   public:
+    explicit Entries(const Ranks* ranks) : ranks_(ranks) {}
+    void add(const CellPlace& place, int row, int column, double value) {
+      if (ranks_) places_.push_back(place);
+      entries_.emplace_back(row, column, value);
+    }
+    /// Those of all ranks.
+    MatrixEntries of_all() { return in_cell_order(ranks_, places_, std::move(entries_)); }
+
+   private:
+    const Ranks* ranks_;
+    std::vector<CellPlace> places_;
+    MatrixEntries entries_;
+  };
+
   template <class AddCell>
   SparseMatrix assembled(const AddCell& add_cell) const {
     return assemble_whole_cells<B, K>(frame_.grid, points_, frame_.weights, frame_.corner_sum, frame_.dofs(), add_cell)

@@ -48,7 +48,7 @@ class PointLaws {
     if constexpr (dim > 1) {
       if (!share_dilatation()) return;
       if (share_over_splines()) {
-        splines_.rebuild(frame_.grid, frame_.body.points);
+        splines_.rebuild(frame_.grid, frame_.body.points, frame_.ranks);
       } else {
         volume_share_ = CellSums<K>::volume_shares(frame_.body.points);
       }

@@ -19,9 +19,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "parallel/of_all.hpp"
 #include "scene/throw_scene_error.hpp"
 #include "space/boundary/conditions.hpp"
 #include "space/grid/followed_functions.hpp"
@@ -83,7 +85,12 @@ class RestingParts {
     const MaterialPoints<static_cast<int>(dim)>& points = frame_.body.points;
     std::size_t resting = 0;
     for (std::size_t k = 0; k < cells.size(); ++k) resting += cells[k] ? points.end(k) - points.begin(k) : 0;
-    resting_share_ = static_cast<double>(resting) / static_cast<double>(points.size());
+    double at_rest = 0, all = 0;
+    for (const auto& [rests, of_rank] : of_all(frame_.ranks, std::array{resting, points.size()})) {
+      at_rest += static_cast<double>(rests);
+      all += static_cast<double>(of_rank);
+    }
+    resting_share_ = at_rest / all;
   }
 
   // --- during a phase, and at its end --------------------------------------------------------------
@@ -181,12 +188,15 @@ class RestingParts {
 
   // Sets `value` at all functions that share a cell with one that has it.
   void spread_by_a_cell(char value, std::vector<char>& of_functions) const {
-    const std::vector<char> before = of_functions;
+    std::vector<char> takes_it(of_functions.size(), 0);
     for (std::size_t k = 0; k < frame_.body.points.cells(); ++k) {
       bool some = false;
-      for (std::size_t a = 0; a < per_cell; ++a) some = some || before[function(k, a)] == value;
-      for (std::size_t a = 0; some && a < per_cell; ++a) of_functions[function(k, a)] = value;
+      for (std::size_t a = 0; a < per_cell; ++a) some = some || of_functions[function(k, a)] == value;
+      for (std::size_t a = 0; some && a < per_cell; ++a) takes_it[function(k, a)] = 1;
     }
+    unite(frame_.ranks, std::span(takes_it));
+    for (std::size_t f = 0; f < takes_it.size(); ++f)
+      if (takes_it[f]) of_functions[f] = value;
   }
   // Whether all functions of a cell are held where they are, by supports or at rest, (cells).
   std::vector<char> resting_cells() const {
@@ -212,6 +222,7 @@ class RestingParts {
   std::vector<Held> held_beside_what_moves() const {
     std::vector<char> moves(frame_.functions_of_grid(), 0);
     for (const std::size_t f : force_.points().moving_functions()) moves[f] = 1;
+    unite(frame_.ranks, std::span(moves));
     std::vector<Held> beside = held_at_rest();
     std::erase_if(beside, [&](const Held& at) { return !moves[at.unknown / dim]; });
     return beside;
@@ -281,8 +292,11 @@ class RestingParts {
   void add_forces_around(const std::vector<double>& corner) {
     for (std::size_t unknown = 0; unknown < loads_.size(); ++unknown)
       squares_[unknown / dim] += loads_[unknown] * loads_[unknown];
+    std::vector<double> of_corners(frame_.corner_sum.corners() + CornerSum::slack), of_functions(squares_.size());
     for (std::size_t c = 0; c < dim * per_cell * frame_.body.points.cells(); ++c)
-      squares_[function(c / (dim * per_cell), c / dim % per_cell)] += corner[c] * corner[c];
+      of_corners[c / dim] += corner[c] * corner[c];
+    frame_.corner_sum.template sum_at_functions<1>(of_corners.data(), of_functions.data());
+    for (std::size_t f = 0; f < squares_.size(); ++f) squares_[f] += of_functions[f];
   }
 
   const PhaseFrame<B, K>& frame_;
