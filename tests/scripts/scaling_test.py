@@ -183,5 +183,43 @@ def _(folder):
     assert result.returncode == 2 and "there is no nowhere" in result.stderr, result
 
 
+@claim("processes and threads are compared on the same body and on larger ones, by the time of a point and step")
+def _(folder):
+    # Takes 30 ns alone, and 20 where two share the work.
+    program = """#!/bin/bash
+[[ " $* " == *" --threads 2 "* || ${OMPI_COMM_WORLD_SIZE:-1} == 2 ]] && ns=20 || ns=30
+echo "$*" >>"$(dirname "$0")/calls"
+while [[ $1 != --out ]]; do shift; done
+mkdir -p "$2"
+printf '{"status": "step-limit", "reason": "", "points": 1000, "ns_per_point_step": %s}' $ns >"$2/summary.json"
+exit 3
+"""
+    (folder / "program").write_text(program)
+    (folder / "program").chmod(0o755)
+    arguments = ["--quick", "--repeat", 2, "--cores", 2, "--out", folder / "out", "--program", folder / "program"]
+    result = call(sys.executable, ROOT / "scripts/scaling_ranks.py", *arguments)
+    assert result.returncode == 0, result
+    with open(folder / "out/ranks.csv", newline="") as table:
+        rows = list(csv.DictReader(table))
+    assert [(row["kind"], row["ranks"], row["threads"]) for row in rows[:5]] == [
+        ("strong", "1", "1"), ("strong", "1", "2"), ("strong", "2", "1"), ("weak", "1", "2"), ("weak", "2", "1")
+    ], rows  # fmt: skip
+    assert [float(row["efficiency"]) for row in rows] == 2 * [1, 0.75, 0.75, 0.75, 0.75], rows
+    assert all(0 < float(row["megabytes"]) < 50 for row in rows), rows
+    assert "| plane | weak | 2 | 1 | 1000 | 20.0 | 0.75 |" in (folder / "out/ranks.md").read_text()
+    calls = (folder / "calls").read_text()
+    assert calls.count("grid.cells=[120, 66]") == 2 * (1 + 1 + 2) and "grid.cells=[170, 93]" in calls, calls
+
+
+@claim("a run of several processes that fails leaves its place in the table empty, and the status is 1")
+def _(folder):
+    (folder / "program").write_text("#!/bin/bash\necho no such key >&2\nexit 2\n")
+    (folder / "program").chmod(0o755)
+    arguments = ["--quick", "--repeat", 1, "--cores", 1, "--out", folder / "out", "--program", folder / "program"]
+    result = call(sys.executable, ROOT / "scripts/scaling_ranks.py", *arguments)
+    assert result.returncode == 1 and "no such key" in result.stderr and "2 rows, 2 missing" in result.stdout, result
+    assert "| plane | strong | 1 | 1 |  |  |  |  |" in (folder / "out/ranks.md").read_text()
+
+
 if __name__ == "__main__":
     check_the_claim()
