@@ -32,11 +32,13 @@ void check(PetscErrorCode code) {
 }
 
 // PETSc runs in one process, however that was started: without these settings OpenMPI looks for networks and a
-// launcher, a third of a second. Values that the user has set are kept.
+// launcher, a third of a second, and makes folders for temporary files that all such processes share, which the first of
+// them to end takes from the others. Values that the user has set are kept.
 void start_petsc() {
   static const bool started = [] {
     constexpr int keep = 0;
     setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
+    setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
     setenv("OMPI_MCA_btl", "self", keep);
     setenv("OMPI_MCA_pml", "ob1", keep);
     check(PetscOptionsSetValue(nullptr, "-no_signal_handler", "true"));  // the program has its own
