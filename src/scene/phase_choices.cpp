@@ -27,16 +27,17 @@ bool some_stage_remembers(const Problem& problem, const Catalogue& catalogue) {
                              [&](const StageSpec& stage) { return std::ranges::any_of(stage.material, remembers); });
 }
 
-// Bodies whose law has no history take domains if they can and if the motion is damped: without damping, means over
-// domains would cost flip some of the motion's energy. With damping they take apic: flip keeps the part of the points'
-// velocities that no function of this phase sees until functions of a later phase see it, and that shakes a body that
-// overshoots into a shape that no force takes back. What is chosen holds for all stages.
+// Bodies whose law has no history take domains if they can, if each point keeps its own change of volume, and if the
+// motion is damped: without damping, means over domains would cost flip some of the motion's energy. With damping they
+// take apic: flip keeps the part of the points' velocities that no function of this phase sees until functions of a
+// later phase see it, and that shakes a body that overshoots into a shape that no force takes back. What is chosen
+// holds for all stages.
 void resolve_quadrature(Problem& problem, const Catalogue& catalogue, bool remembers) {
   PhaseSpec& phase = problem.phase;
   const bool moves_on = phase.ends_by_motion() || phase.max_strain;  // and does so not by stages alone
   const bool rests = damps(problem, catalogue) && problem.grid.basis != BasisKind::hermite && !remembers && moves_on &&
                      !some_stage_remembers(problem, catalogue) && !problem.displacements_from_zero;
-  if (rests && why_no_domains(problem).empty()) {
+  if (rests && phase.dilatation == Dilatation::points && why_no_domains(problem).empty()) {
     phase.quadrature.take(Quadrature::domains, "the points of elastic boxes, damped, lie side by side");
   } else {
     phase.quadrature.take(Quadrature::points);

@@ -66,6 +66,25 @@ TEST_CASE("level ground stands through its phases: in a whole run nothing moves 
         1e-9 * ground_weight * ground_depth);  // at the surface there is none
 }
 
+TEST_CASE("a stress to begin with that the ground cannot bear is told, and one that it can is not") {
+  const auto tells = [](const std::vector<std::string>& overrides) {
+    const auto phase = make_phase(ground(overrides));
+    const std::vector<std::string> notes = phase->diagnosis().notes_of_laws();
+    return !notes.empty() && notes[0].find("the initial stress lies outside the strength of material.sand") == 0;
+  };
+  for (const std::string law : {"{law='drucker-prager', E=2e6, nu=0.3, rho=1800, phi=35, cone='plane-strain'}",
+                                "{law='mohr-coulomb', E=2e6, nu=0.3, rho=1800, phi=35}"}) {
+    CAPTURE(law);
+    const auto with_K0 = [&](const char* K0) {
+      return tells({"material.sand=" + law, std::string("initial.geostatic.K0=") + K0});
+    };
+    CHECK(with_K0("0.1"));  // Rankine's active pressure is 0.27, his passive one 3.69
+    CHECK_FALSE(with_K0("0.5"));
+    CHECK_FALSE(with_K0("1"));
+    CHECK(with_K0("12"));
+  }
+}
+
 TEST_CASE("ground that is at rest from the beginning is found there by every static solver") {
   for (const char* method : {"newton", "newton-cg", "cg", "lbfgs"}) {
     for (const char* law : {"drucker-prager", "mohr-coulomb"}) {

@@ -32,6 +32,7 @@ class Presence {
   Presence(SceneCheck& check, const std::string& what, const std::vector<Part>& present, const std::vector<Part>& later)
       : check_(check), what_(what), all_(named(present, later)) {
     for (const Part& part : present) now_.insert(part.name);
+    for (const Part& part : later) later_.insert(part.name);
   }
 
   /// Each of these looks at one name of a list.
@@ -42,17 +43,21 @@ class Presence {
     });
   }
   void end(const std::string& key, const std::vector<std::string>& names, std::size_t k) {
-    check_one(key, names, k, not_there, [&](const std::string& name) { return now_.erase(name) > 0; });
+    check_one(key, names, k, why_not_there(names[k]), [&](const std::string& name) { return now_.erase(name) > 0; });
   }
   void expect(const std::string& key, const std::vector<std::string>& names, std::size_t k) {
-    check_one(key, names, k, not_there, [&](const std::string& name) { return now_.contains(name); });
+    check_one(key, names, k, why_not_there(names[k]), [&](const std::string& name) { return now_.contains(name); });
   }
   bool none_is_left() const { return now_.empty(); }
   const std::vector<std::string>& all() const { return all_; }
   bool knows(const std::string& name) const { return std::ranges::find(all_, name) != all_.end(); }
 
  private:
-  static constexpr const char* not_there = "{} {} is not there then";
+  const char* why_not_there(const std::string& name) const {
+    if (!later_.contains(name) || came_.contains(name)) return "{} {} is not there then";
+    return "{} {} comes with a later stage, and is not there before; what was taken away cannot come back, so that "
+           "what comes needs a name of its own";
+  }
 
   /// Reports a name that nothing has, and with this message one that is not in order.
   template <class IsInOrder>
@@ -69,7 +74,7 @@ class Presence {
   SceneCheck& check_;
   std::string what_;
   std::vector<std::string> all_;
-  std::set<std::string> now_, came_;
+  std::set<std::string> now_, later_, came_;
 };
 
 /// The bodies and the rigid bodies that there are, which come and go by the same keys.

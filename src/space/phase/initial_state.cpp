@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -154,6 +155,35 @@ void set_initial_state(const Problem& problem, Body<K>& body, const std::vector<
 }
 
 template <Kinematics K>
+std::vector<std::string> notes_on_initial_stress(const Problem& problem, const Body<K>& body) {
+  constexpr double rounding = 1e-6;
+  std::vector<std::string> notes;
+  if (!problem.geostatic && problem.initial_stress.empty()) return notes;
+  for (std::size_t m = 0; m < body.materials.size(); ++m) {
+    double worst = 1 + rounding;  // √J₂ over that which is borne
+    std::size_t at = body.points.size();
+    YieldState there;
+    for (int k = body.points.material_begin[m]; k < body.points.material_begin[m + 1]; ++k) {
+      const auto p = static_cast<std::size_t>(k);
+      const std::optional<YieldState> state = body.materials[m]->yield_state(p);
+      if (!state || !(state->f > 0)) continue;
+      const double share =
+          state->strength > 0 ? state->root_J2 / state->strength : std::numeric_limits<double>::infinity();
+      if (share > worst) worst = share, at = p, there = *state;
+    }
+    if (at == body.points.size()) continue;
+    notes.push_back(fmt::format(
+        "the initial stress lies outside the strength of material.{}: at ({:.6g}) sqrt(J2) is {:.6g} Pa, and {}; what "
+        "is beyond flows at once, without a load; expected {}",
+        body.material_names[m], fmt::join(body.points.position(at), ", "), there.root_J2,
+        there.strength > 0 ? fmt::format("{:.6g} Pa its strength", there.strength)
+                           : "nothing is borne in so much tension",
+        problem.geostatic ? "another K0, or a larger phi or c" : "another initial.stress, or a larger phi or c"));
+  }
+  return notes;
+}
+
+template <Kinematics K>
 void set_initial_velocity(const Problem& problem, Body<K>& body) {
   if (problem.initial_v.empty()) return;
   for (std::size_t p = 0; p < body.points.size(); ++p) {
@@ -166,9 +196,13 @@ template void set_initial_state(const Problem&, Body<Kinematics::line>&, const s
 template void set_initial_state(const Problem&, Body<Kinematics::plane>&, const std::vector<double>&);
 template void set_initial_state(const Problem&, Body<Kinematics::axisymmetric>&, const std::vector<double>&);
 template void set_initial_state(const Problem&, Body<Kinematics::space>&, const std::vector<double>&);
+template std::vector<std::string> notes_on_initial_stress(const Problem&, const Body<Kinematics::line>&);
 template void set_initial_velocity(const Problem&, Body<Kinematics::line>&);
+template std::vector<std::string> notes_on_initial_stress(const Problem&, const Body<Kinematics::plane>&);
 template void set_initial_velocity(const Problem&, Body<Kinematics::plane>&);
+template std::vector<std::string> notes_on_initial_stress(const Problem&, const Body<Kinematics::axisymmetric>&);
 template void set_initial_velocity(const Problem&, Body<Kinematics::axisymmetric>&);
+template std::vector<std::string> notes_on_initial_stress(const Problem&, const Body<Kinematics::space>&);
 template void set_initial_velocity(const Problem&, Body<Kinematics::space>&);
 
 }  // namespace stillpoint

@@ -3,6 +3,7 @@
 
 #include <stillpoint/problem.hpp>
 
+#include <string>
 #include <vector>
 
 #include "space/points/body.hpp"
@@ -18,6 +19,10 @@ namespace stillpoint {
 /// material. Throws SceneError if a parameter is out of range somewhere, or a law cannot begin under the stress.
 template <Kinematics K>
 void set_initial_state(const Problem& problem, Body<K>& body, const std::vector<double>& origin);
+
+/// What users should know of the stress that the scene asks for: where it lies outside the strength of a material.
+template <Kinematics K>
+std::vector<std::string> notes_on_initial_stress(const Problem& problem, const Body<K>& body);
 
 /// Sets the velocities of points that move on from phase to phase.
 template <Kinematics K>

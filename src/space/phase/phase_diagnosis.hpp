@@ -33,7 +33,7 @@ class PhaseDiagnosisOf final : public PhaseDiagnosis {
   PlaceInBody of_point(std::size_t number) const override { return frame_.account().place_of(number); }
 
   std::vector<std::string> notes_of_laws() const override {
-    std::vector<std::string> notes;
+    std::vector<std::string> notes = frame_.notes;
     for (const auto& material : frame_.body.materials) std::ranges::move(material->notes(), std::back_inserter(notes));
     return notes;
   }

@@ -46,6 +46,7 @@ struct PhaseFrame {
     if (carried) take_ways(*carried);
     if (begins_from_other_run(carried)) where_placed_ = account().positions();
     set_initial_state(problem, body, origin);
+    if (!carried) notes = notes_on_initial_stress(problem, body);
     for (const auto& material : body.materials) wave_moduli.push_back(material->wave_modulus());
   }
   PhaseFrame(const PhaseFrame&) = delete;
@@ -132,7 +133,8 @@ struct PhaseFrame {
   std::vector<double> placed;
   // The ways that points of small strain have gone before, which stay where they are, likewise [m]; else empty.
   std::vector<double> gone;
-  long phase;  // number of the phase
+  std::vector<std::string> notes;  // on the stress that the points begin with
+  long phase;                      // number of the phase
   PointWeights<B, K> weights;
   CornerSum corner_sum;
   NodalTotals<B, K> totals;     // sums over the points when the phase begins

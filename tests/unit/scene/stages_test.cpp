@@ -190,6 +190,9 @@ TEST_CASE("stages that cannot be are refused by name") {
       {"{at=1, add=['lift 7']}", "there is no body 'lift 7'"},
       {"{at=1, add=['lift 2']}, {at=2, add=['lift 2']}", "body 'lift 2' comes twice"},
       {"{at=1, remove=['lift 2']}, {at=2, remove=['lift 2']}", "body 'lift 2' is not there then"},
+      {"{at=1, remove=['lift 2']}, {at=2, add=['lift 2']}",
+       "stage[0].remove[0]: body 'lift 2' comes with a later stage, and is not there before; what was taken away "
+       "cannot come back"},
       {"{at=2, add=['lift 2']}, {at=1}", "must be later than 2, not 1"},
       {"{at=1, remove=['lift 2']}, {at=2, change=['lift 2'], material=['fill']}", "body 'lift 2' is not there then"},
       {"{at=1, change=['lift 2'], material=['fil']}", "there is no material 'fil'"},

@@ -139,6 +139,9 @@ TEST_CASE("elastic boxes of uniform points take domains, all others points; doma
   CHECK(quadrature({"body.placement=gauss"}) == Quadrature::points);
   CHECK(quadrature({"body.jitter=0.1"}) == Quadrature::points);
   CHECK(quadrature({"body.state=axisymmetric"}) == Quadrature::points);
+  CHECK(quadrature({"phase.dilatation=cells"}) == Quadrature::points);
+  CHECK_THROWS_WITH(free_block({"phase.quadrature=domains", "phase.dilatation=cells"}),
+                    Contains("phase.quadrature") && Contains("domains reach beyond the cells"));
   CHECK(free_soil().phase.quadrature == Quadrature::points);
   CHECK(free_soil({"phase.quadrature=domains"}).phase.quadrature == Quadrature::domains);
   for (const char* other : {"body.placement=gauss", "body.state=axisymmetric"}) {
