@@ -74,6 +74,7 @@ struct RunState {
   std::optional<PhaseMotion> motion;  // through the present phase
 
   double t, step = 0;               // [s]
+  double landing = 0;               // the time that no step passes: of the next row, of a stage, or of the end [s]
   bool is_cut = true;               // whether the last step is as short as it is to end at a time that was asked for
   double progress = 0;              // of the phase towards its end, which comes at 1
   int phases = 1, first_phase = 1;  // of all stages so far, and at which of them the present stage began

@@ -54,6 +54,7 @@ RunStatus Simulation::Impl::step(double t_stop) {
     run_->motion->accept(run_->t);
     observe();
     record(true);
+    go_on();
     if (leaves_checkpoints()) leave_checkpoint();
   }
   try {
@@ -74,7 +75,7 @@ RunStatus Simulation::Impl::step(double t_stop) {
 }
 
 void Simulation::Impl::take_step(double t_stop) {
-  const double landing = landing_time(t_stop);
+  const double landing = run_->landing = landing_time(t_stop);
   const std::optional<StepReport> report = try_step(landing);
   if (!report) return;
   run_->t = report->t;
@@ -94,6 +95,7 @@ void Simulation::Impl::end_step() {
   if (run_->options.stops) judge();
   record(done());
   report_progress();
+  if (!done()) go_on();
   if (!done() && stage_is_over()) return next_stage();
   if (!done() && run_->progress >= 1) next_phase();
   if (!done()) end_if_asked();
@@ -141,6 +143,10 @@ void Simulation::Impl::give_up(const StepReport& report) {
 
 void Simulation::Impl::observe() {
   for (const Watched& watched : watchers_) watched.watcher->observe(*run_);
+}
+
+void Simulation::Impl::go_on() {
+  for (const Watched& watched : watchers_) watched.watcher->go_on(*run_);
 }
 
 // If a request to end breaks it off, the run that goes on from there begins with the watcher that was broken off.

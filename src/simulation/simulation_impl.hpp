@@ -42,6 +42,7 @@ class Simulation::Impl {
   double landing_time(double t_stop) const;
   void give_up(const StepReport& report);
   void observe();
+  void go_on();
   void judge();
   void next_phase();
   /// Ends the phase, with its watchers and records.

@@ -25,6 +25,8 @@ class Watcher {
   /// After all have observed a step, unless options.stops is off: whether the run is over. The first watcher that ends
   /// it is the last one that is asked.
   virtual Verdict judge(RunState&) { return {}; }
+  /// After a state has been recorded from which the run goes on: changes what the next step begins with.
+  virtual void go_on(RunState&) {}
   /// Before a phase ends. is_last: the run ends with it.
   virtual void end_phase(RunState&, bool is_last) { static_cast<void>(is_last); }
   /// When the next phase has begun: whether the run is over.
@@ -62,6 +64,7 @@ std::vector<Watched> make_watchers(RunState& run);
 std::unique_ptr<Watcher> watch_single_phase();
 std::unique_ptr<Watcher> watch_left_in_points();
 std::unique_ptr<Watcher> watch_passed_bodies();
+std::unique_ptr<Watcher> watch_sudden_bodies(const RunState& run);
 std::unique_ptr<Watcher> watch_hooked_corners();
 std::unique_ptr<Watcher> watch_unheld_bodies();
 std::unique_ptr<Watcher> watch_rate_share(const RunState& run);

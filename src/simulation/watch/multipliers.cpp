@@ -11,10 +11,13 @@
 // contact a piece may open and close from one update to the next; once they come no nearer, there are no more. Under
 // loads that still change they follow once in a while, and after a longer while even if the body is not near balance:
 // in a motion that is never quiet the penalty alone would press else, and give way. There is no end to those, and they
-// are taken evenly: what swings at the moment of an update is not to stay as a pressure.
+// are taken evenly: what swings at the moment of an update is not to stay as a pressure. Nor are they taken shortly
+// before a row of the history, unless rows are as close as they are: for a while both the new multipliers and the
+// penetration of before press.
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -50,7 +53,18 @@ class Multipliers : public Watcher {
     const bool fits = !state.touches || (updates_ >= fewest && (is_small(state) || comes_no_nearer(state)));
     const bool ends = loads_stay && (fits || updates_ >= most);
     run.contact_settled = ends && state.balanced;
-    if (ends || !state.touches) return;
+    change_ = state.change;
+    is_pending_ = !ends && state.touches;
+    evaluations_ = run.evaluations();
+  }
+
+  // Forces by new multipliers are those of no state before the body has answered to them: what is recorded and judged
+  // comes first.
+  void go_on(RunState& run) override {
+    if (!std::exchange(is_pending_, false)) return;
+    const bool loads_stay = run.loads_stay();
+    // The last evaluation has to be at this state, and others may have looked elsewhere meanwhile.
+    if (run.evaluations() != evaluations_) run.motion->norms.residual(run.t, run.motion->u());
     const double residual = run.motion->known_residual(run.t);  // the last evaluation is at this state then
     run.motion->system.change_last([&](Vec R, TrialState& trial) {
       run.model.phase->control().update_multipliers(run.t, run.motion->u(), /*evenly=*/!loads_stay, R, trial);
@@ -61,7 +75,7 @@ class Multipliers : public Watcher {
     if (!loads_stay) return;
     ++updates_;
     since_nearest_ += std::clamp(std::log10(unbalanced_ / residual), 0.0, 2.0);
-    if (state.change < nearer() * least_change_) least_change_ = state.change, since_nearest_ = 0;
+    if (change_ < nearer() * least_change_) least_change_ = change_, since_nearest_ = 0;
     unbalanced_ = run.motion->known_residual(run.t);
     goal_ = remembers_ ? std::max(goal_ / 10, least_)
                        : std::clamp(half * unbalanced_, least_ / 10, std::max(early, least_));
@@ -108,7 +122,8 @@ class Multipliers : public Watcher {
 
   void archive(const StateArchive& state, RunState& run) override {
     state("updates", updates_, "goal", goal_, "last", last_, "least_change", least_change_, "since_nearest",
-          since_nearest_, "unbalanced", unbalanced_, "settled", run.contact_settled, "look", look_);
+          since_nearest_, "unbalanced", unbalanced_, "settled", run.contact_settled, "look", look_, "change", change_,
+          "is_pending", is_pending_);
   }
 
  private:
@@ -164,8 +179,10 @@ class Multipliers : public Watcher {
   bool is_due(RunState& run, bool loads_stay) {
     if (run.motion->stepper->moves() && ++look_ % stride != 0) return false;
     if (loads_stay) return run.motion->known_residual(run.t) <= goal_;
-    constexpr double patience = 4;
+    constexpr double patience = 4, answer = 0.5;  // of the time between two, until the body has answered to one
     if (run.t < last_ + between_) return false;
+    const bool is_soon_shown = run.landing < run.t + answer * between_;
+    if (is_soon_shown && run.landing < last_ + patience * between_) return false;
     return run.t >= last_ + patience * between_ || run.motion->known_residual(run.t) <= quiet;
   }
 
@@ -180,6 +197,9 @@ class Multipliers : public Watcher {
   double since_nearest_ = 0;  // the updates since then, each by the decades of its way to balance, at most two
   double unbalanced_ = 0;     // the residual after the last one
   long updates_ = 0, look_ = 0;
+  long evaluations_ = 0;     // when it became due
+  double change_ = 0;        // that the update which is due would make
+  bool is_pending_ = false;  // whether one is due
 };
 
 }  // namespace

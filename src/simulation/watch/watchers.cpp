@@ -54,6 +54,7 @@ std::vector<Watched> make_watchers(RunState& run) {
   list.push_back({"limit_load", std::make_unique<LimitLoad>(run.scene.stop.load_growth)});
   list.push_back({"chatter", std::make_unique<Chatter>()});
   list.push_back({"passed_bodies", watch_passed_bodies()});
+  list.push_back({"sudden_bodies", watch_sudden_bodies(run)});
   list.push_back({"hooked_corners", watch_hooked_corners()});
   list.push_back({"left_in_points", watch_left_in_points()});
   return list;

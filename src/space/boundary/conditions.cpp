@@ -203,6 +203,11 @@ bool Conditions<K>::rigid_bodies_jump(double before, double t) const {
 }
 
 template <Kinematics K>
+double Conditions<K>::way_of_rigid_bodies(double before, double t) const {
+  return rigid_contact_->empty() ? 0 : rigid_contact_->longest_way(before, t);
+}
+
+template <Kinematics K>
 std::vector<Intrusion> Conditions<K>::passages(const Parts& phase, double before, double t, const double* u) const {
   return rigid_contact_->passages(phase, before, t, u);
 }

@@ -128,6 +128,7 @@ class Conditions {
   ContactState contact_state(const Parts& phase, double t, const double* u) const;
   std::vector<Intrusion> intrusions(const Parts& phase, double t, const double* u) const;
   bool rigid_bodies_jump(double before, double t) const;
+  double way_of_rigid_bodies(double before, double t) const;
   std::vector<Intrusion> passages(const Parts& phase, double before, double t, const double* u) const;
   bool is_ahead(std::size_t body, const Point<dim>& direction, double t, const double* u) const;
   bool are_driven() const { return load_control_.acts(); }

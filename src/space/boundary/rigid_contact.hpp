@@ -68,6 +68,12 @@ class RigidContact {
   bool jumps(double before, double t) const {
     return std::ranges::any_of(bodies_, [&](const RigidBody& rigid) { return jumps(rigid.finder(), before, t); });
   }
+  /// The longest way of one that is not free since then [cells].
+  double longest_way(double before, double t) const {
+    double longest = 0;
+    for (const RigidBody& rigid : bodies_) longest = std::max(longest, way(rigid.finder(), before, t));
+    return longest;
+  }
   /// What rigid bodies have gone right through since a time before: material points that lie deeper in them on the
   /// straight way between their places than at its ends. Only of those that jump.
   std::vector<Intrusion> passages(const Parts& phase, double before, double t, const double* u) const;
@@ -84,8 +90,12 @@ class RigidContact {
   static std::string name_of(const RigidBody& rigid);
   bool jumps(const TouchFinder<K>& finder, double before, double t) const {
     constexpr double jump = 0.5;  // [cells]
-    return !finder.is_free() && finder.moves() &&
-           way_between(finder.placement(before), finder.placement(t)) > jump * least_cell_;
+    return way(finder, before, t) > jump;
+  }
+  /// The way of a rigid body that is not free from one time to another [cells].
+  double way(const TouchFinder<K>& finder, double before, double t) const {
+    if (finder.is_free() || !finder.moves()) return 0;
+    return way_between(finder.placement(before), finder.placement(t)) / least_cell_;
   }
   /// How far a place of a rigid body goes at most from one placement to another, within the grid [m].
   double way_between(const RigidPlacement<N>& from, const RigidPlacement<N>& to) const {

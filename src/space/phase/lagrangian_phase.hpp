@@ -200,6 +200,8 @@ class PhaseSupports {
   virtual ContactState contact_state(double t, ConstVec u) const = 0;
   /// What lies in rigid bodies without being felt, at (t, u): at most one place of a kind for each.
   virtual std::vector<Intrusion> intrusions(double t, ConstVec u) const = 0;
+  /// The longest way that a rigid body which is not free has gone between two times [cells].
+  virtual double way_of_rigid_bodies(double before, double t) const = 0;
   /// What rigid bodies have gone right through between a time before and (t, u), by jumps of more than half a cell.
   virtual std::vector<Intrusion> passages(double before, double t, ConstVec u) const = 0;
   /// Whether a rigid body that is not free is ahead of a body that goes on along a unit vector, (dim), from (t, u).

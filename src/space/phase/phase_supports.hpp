@@ -49,6 +49,9 @@ class PhaseSupportsOf final : public PhaseSupports {
     if (!all_.conditions.rigid_bodies_jump(before, t)) return {};  // as in all steps but few
     return all_.conditions.passages(all_.inertia.parts(), before, t, spread(t, u)->u.data());
   }
+  double way_of_rigid_bodies(double before, double t) const override {
+    return all_.conditions.way_of_rigid_bodies(before, t);
+  }
   bool is_rigid_body_ahead(std::size_t body, ConstVec direction, double t, ConstVec u) const override {
     if (!all_.conditions.may_touch()) return false;
     Point<dimensions(K)> along;
