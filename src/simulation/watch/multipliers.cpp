@@ -105,7 +105,7 @@ class Multipliers : public Watcher {
   }
 
   void fill_state(Summary& summary, RunState& run) override {
-    constexpr double negligible = 1e-2;  // of the forces
+    constexpr double negligible = 1e-3;  // of the forces
     if (!touches_) return;
     note_stretch(summary, run);
     if (!run.scene.stop.wants_equilibrium()) return;
