@@ -32,8 +32,8 @@ void check(PetscErrorCode code) {
 }
 
 // PETSc runs in one process, however that was started: without these settings OpenMPI looks for networks and a
-// launcher, a third of a second, and makes folders for temporary files that all such processes share, which the first of
-// them to end takes from the others. Values that the user has set are kept.
+// launcher, a third of a second, and makes folders for temporary files that all such processes share, which the first
+// of them to end takes from the others. Values that the user has set are kept.
 void start_petsc() {
   static const bool started = [] {
     constexpr int keep = 0;

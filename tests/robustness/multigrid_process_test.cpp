@@ -11,10 +11,9 @@ namespace stillpoint::test {
 // Those of several runs shared folders there, which the first to end took away from under the others.
 TEST_CASE("a run with the multigrid mass needs no folder for temporary files") {
   if (!multigrid_is_missing().empty()) return;
-  const CommandRun run("",
-                       "run " STILLPOINT_PROBLEMS
-                       "/cantilever.toml --set mass.kind=multigrid --set damping.strategy=auto --out OUT",
-                       "TMPDIR=$PWD/scene.toml");
+  const CommandRun run(
+      "", "run " STILLPOINT_PROBLEMS "/cantilever.toml --set mass.kind=multigrid --set damping.strategy=auto --out OUT",
+      "TMPDIR=$PWD/scene.toml");
   CAPTURE(run.standard_error);
   CHECK(run.status == 0);
   CHECK(run.wrote);
