@@ -138,6 +138,7 @@ void validate(const Scene& scene, const std::vector<FileMistake>& files, Reading
 // The parts of validate(). grid: whether the grid is a box that can be divided into its cells; body: the box around all
 // bodies, empty if one of them is not in order.
 std::optional<NamedBox> check_bodies(SceneCheck& check, bool grid, const std::vector<FileMistake>& files);
+void check_materials(SceneCheck& check);
 /// True if the corners of a body's polygon are those of a simple polygon with an area.
 bool check_corners(SceneCheck& check, std::size_t k);
 /// True if a key says that body k is neither a box nor points from a file.

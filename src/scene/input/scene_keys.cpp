@@ -118,8 +118,7 @@ void add_grid(Tables& tables) {
            "functions are taken at the points, or interpolated over the domains that they stand for",
            {.words = {"points", "domains"},
             .fallback = "domains for elastic boxes of uniform points on a line or in a plane, if damped and dilatation "
-                        "is that of "
-                        "points; otherwise points"})
+                        "is that of points; otherwise points"})
       .key("dilatation", &PhaseSpec::dilatation,
            "the change of volume that a law answers to: that of each point, or so that nearly incompressible material "
            "does not lock (F-bar, B-bar) the mean of a cell's points, or a mean over splines of one degree less than "

@@ -96,7 +96,8 @@ void check_phases(SceneCheck& check, bool grid) {
   const std::string why_not = why_no_domains(scene), one_phase = for_one_phase(phase);
   check.wrong_if(phase.quadrature == Quadrature::domains && !why_not.empty(), "phase.quadrature",
                  "{}: there are no domains side by side; take \"points\"", why_not);
-  // Domains reach into cells with which they share nothing. A block pressed by 29 % found another rest, 50 % too short.
+  // Domains reach into cells with which they share nothing. A block that is pressed by 17 % found another rest, at 26
+  // %.
   check.wrong_if(phase.quadrature == Quadrature::domains && phase.dilatation != Dilatation::points, "phase.quadrature",
                  "domains reach beyond the cells whose points share their change of volume, and once they have moved "
                  "nothing resists some shapes; take \"points\", or phase.dilatation = \"points\"");

@@ -199,7 +199,7 @@ std::vector<Intrusion> Conditions<K>::intrusions(const Parts& phase, double t, c
 
 template <Kinematics K>
 bool Conditions<K>::rigid_bodies_jump(double before, double t) const {
-  return !rigid_contact_->empty() && rigid_contact_->jumps(before, t);
+  return way_of_rigid_bodies(before, t) > RigidContact<K>::jump;
 }
 
 template <Kinematics K>

@@ -64,11 +64,9 @@ class RigidContact {
   void add_reports(double t, const double* u, std::vector<ContactReport>& to) const;
   /// What lies in rigid bodies at (t, u), at most one place of a kind for each.
   std::vector<Intrusion> intrusions(const Parts& phase, double t, const double* u) const;
-  /// Whether a rigid body that is not free has gone more than half a cell since a time before.
-  bool jumps(double before, double t) const {
-    return std::ranges::any_of(bodies_, [&](const RigidBody& rigid) { return jumps(rigid.finder(), before, t); });
-  }
-  /// The longest way of one that is not free since then [cells].
+  /// The longest way of a rigid body that is not free since a time before [cells]; beyond `jump` it may have gone
+  /// through something.
+  static constexpr double jump = 0.5;
   double longest_way(double before, double t) const {
     double longest = 0;
     for (const RigidBody& rigid : bodies_) longest = std::max(longest, way(rigid.finder(), before, t));
@@ -88,10 +86,6 @@ class RigidContact {
 
   std::size_t of_each() const { return dim * surface_.patches().size(); }
   static std::string name_of(const RigidBody& rigid);
-  bool jumps(const TouchFinder<K>& finder, double before, double t) const {
-    constexpr double jump = 0.5;  // [cells]
-    return way(finder, before, t) > jump;
-  }
   /// The way of a rigid body that is not free from one time to another [cells].
   double way(const TouchFinder<K>& finder, double before, double t) const {
     if (finder.is_free() || !finder.moves()) return 0;

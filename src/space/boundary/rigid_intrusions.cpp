@@ -80,7 +80,7 @@ std::vector<Intrusion> RigidContact<K>::passages(const Parts& phase, double befo
   std::vector<Intrusion> found;
   for (std::size_t r = 0; r < bodies_.size(); ++r) {
     const TouchFinder<K>& finder = bodies_[r].finder();
-    if (!jumps(finder, before, t)) continue;
+    if (!(way(finder, before, t) > jump)) continue;
     const RigidPlacement<N> from = finder.placement(before), to = finder.placement(t);
     const double at_ends = std::max(deepest_point(r, from, phase, u).cells, deepest_point(r, to, phase, u).cells);
     const int looks = static_cast<int>(std::min(most, std::ceil(way_between(from, to) / (apart * least_cell_))));
