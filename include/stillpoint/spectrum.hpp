@@ -42,6 +42,10 @@ FrequencyEstimate omega_max_by_lanczos(const SemiDiscrete& system, double t, Con
 FrequencyEstimate omega_1_by_lanczos(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& = {});
 /// The lowest frequency of any symmetric K and M, (n × n), by the method of omega_1_by_lanczos().
 FrequencyEstimate lowest_frequency(const SparseMatrix& K, const Mass& M, const SpectrumOptions& = {});
+/// The lowest frequency of K x = ω² A x with A, (n × n), positive semidefinite and no more than M: a motion without
+/// inertia in A follows the others, however slow it is with M.
+FrequencyEstimate lowest_frequency(const SparseMatrix& K, const SparseMatrix& A, const Mass& M,
+                                   const SpectrumOptions& = {});
 /// ω₁ by ARPACK in shift-invert about 0, and ω_max by ARPACK in shift-invert about the Gershgorin bound.
 FrequencyEstimate omega_1_by_arpack(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& = {});
 FrequencyEstimate omega_max_by_arpack(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& = {});

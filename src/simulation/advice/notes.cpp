@@ -212,9 +212,7 @@ std::vector<std::string> thin_rigid_notes(const Problem& problem) {
 
 // ½ Σ_p m_p |x(x_p)|² beside ½ xᵀMx. A lumped mass gives a function that is steep in a sliver more inertia than the
 // material that it moves has; a cubic one or Hermite's also in a corner of the body.
-std::vector<std::string> lowest_mode_notes(const Problem& problem, const LagrangianPhase& phase, ConstVec x,
-                                           double omega_1) {
-  if (!phase.mass().is_lumped() || x.empty()) return {};
+double share_in_material(const Problem& problem, const LagrangianPhase& phase, ConstVec x) {
   const auto dim = static_cast<std::size_t>(phase.dim());
   const std::vector<double> nothing(x.size(), 0.0), mass = phase.fields().point_data().masses;
   std::vector<double> of_points(dim * phase.points()), of_supports(of_points.size()), Mx(x.size());
@@ -227,13 +225,15 @@ std::vector<std::string> lowest_mode_notes(const Problem& problem, const Lagrang
   }
   phase.mass().apply(x, Mx);
   for (std::size_t i = 0; i < x.size(); ++i) nodes += x[i] * Mx[i];
-  constexpr double little = 0.1;
-  if (material > little * nodes) return {};
-  return {fmt::format(
+  return material / nodes;
+}
+
+std::string lowest_mode_note(double omega_1, double share) {
+  return fmt::format(
       "omega_1 = {:.6g} is that of functions which hardly reach the body, with {:.1g} of their kinetic energy in it: "
       "critical damping is too weak by as much; expected a grid that ends with the body, a finer one, a quadratic "
       "basis or mass.kind = \"consistent\"",
-      omega_1, material / nodes)};
+      omega_1, share);
 }
 
 // A point in the middle of an eight-noded cell is strained by none of its 12 hourglass motions. In the plane, where a

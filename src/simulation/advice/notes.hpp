@@ -32,9 +32,13 @@ std::optional<std::string> hourglass_note(const Problem& problem);
 /// loads that do not balance: it falls freely, and is never at rest.
 std::vector<std::string> load_notes(const Problem& problem, const LagrangianPhase& phase, ConstVec u);
 
-/// A note if the lowest mode x, (n), moves hardly any material, but functions that hardly reach the body.
-std::vector<std::string> lowest_mode_notes(const Problem& problem, const LagrangianPhase& phase, ConstVec x,
-                                           double omega_1);
+/// The share of the kinetic energy of a motion x, (n), that is in the material, and not in inertia that functions which
+/// hardly reach the body have beyond what they move.
+double share_in_material(const Problem& problem, const LagrangianPhase& phase, ConstVec x);
+/// What that share has to be for a mode to count as a motion of the body.
+constexpr double least_share_in_material = 0.1;
+/// A note on a lowest mode that has less.
+std::string lowest_mode_note(double omega_1, double share);
 
 /// A note if damping c M v beside the lowest frequency lets the body come to rest only after more steps, or more time,
 /// than the problem allows. step: what is taken [s].

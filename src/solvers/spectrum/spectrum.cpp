@@ -66,13 +66,15 @@ struct Lowest {
   std::vector<double> mode;
 };
 
-// The largest eigenvalue of K⁻¹M by Lanczos' method, with its error within the tolerance twice running.
-Lowest lowest_by_lanczos(const FactorisedStiffness& K, const Mass& mass, double tolerance, int most) {
-  const LinearMap apply_M = [&](ConstVec x, Vec Mx) { mass.apply(x, Mx); };
+constexpr int most_vectors = 60;  // most Lanczos vectors that are kept
+
+// The largest eigenvalue of K⁻¹M by Lanczos' method, with its error within the tolerance twice running; n: size of M.
+Lowest lowest_by_lanczos(const FactorisedStiffness& K, const LinearMap& apply_M, std::size_t n, double tolerance,
+                         int most) {
   const LinearMap solve_K = [&](ConstVec b, Vec x) { K.solve(b, x); };
   const VectorSpace vectors;
-  Vector b = vectors.make(mass.size());
-  std::ranges::copy(start_vector(mass.size()), b.span().begin());
+  Vector b = vectors.make(n);
+  std::ranges::copy(start_vector(n), b.span().begin());
   Lanczos lanczos(apply_M, solve_K, std::move(b), true);
   Lanczos::Largest largest{.theta = std::numeric_limits<double>::quiet_NaN()};
   double error = std::numeric_limits<double>::infinity();
@@ -106,9 +108,9 @@ FrequencyEstimate lowest_frequency(const SparseMatrix& of_body, const Mass& mass
   const Stopwatch watch;
   const FactorisedStiffness K(mass, of_body);
   if (!K.usable()) return {0, 0, watch.seconds(), false, K.refusal(0)};
-  constexpr int most_vectors = 60;  // most Lanczos vectors that are kept
   const int most = std::clamp(options.max_iterations / 2, 1, most_vectors);
-  Lowest lowest = lowest_by_lanczos(K, mass, options.tolerance, most);
+  const LinearMap apply_M = [&](ConstVec x, Vec Mx) { mass.apply(x, Mx); };
+  Lowest lowest = lowest_by_lanczos(K, apply_M, mass.size(), options.tolerance, most);
   FrequencyEstimate estimate{0, lowest.applications, 0, lowest.converged, lowest.status, std::move(lowest.mode)};
   double omega_squared = lowest.omega_squared;
   if (!lowest.converged && std::isfinite(omega_squared) && options.max_iterations > most) {
@@ -131,6 +133,24 @@ FrequencyEstimate lowest_frequency(const SparseMatrix& of_body, const Mass& mass
     estimate.omega = std::sqrt(omega_squared);
   }
   return estimate;
+}
+
+FrequencyEstimate lowest_frequency(const SparseMatrix& of_body, const SparseMatrix& of_material, const Mass& mass,
+                                   const SpectrumOptions& options) {
+  require_valid(options);
+  const Stopwatch watch;
+  const FactorisedStiffness K(mass, of_body);
+  if (!K.usable()) return {0, 0, watch.seconds(), false, K.refusal(0)};
+  const LinearMap apply_M = [&](ConstVec x, Vec Mx) {
+    const auto n = static_cast<Eigen::Index>(x.size());
+    Eigen::Map<Eigen::VectorXd>(Mx.data(), n) = of_material * Eigen::Map<const Eigen::VectorXd>(x.data(), n);
+  };
+  Lowest lowest =
+      lowest_by_lanczos(K, apply_M, mass.size(), options.tolerance, std::min(options.max_iterations, most_vectors));
+  const std::string refusal = K.refusal(lowest.omega_squared);
+  if (!refusal.empty()) return {0, lowest.applications, watch.seconds(), false, refusal};
+  return {std::sqrt(lowest.omega_squared), lowest.applications, watch.seconds(), lowest.converged, lowest.status,
+          std::move(lowest.mode)};
 }
 
 FrequencyEstimate omega_1_by_lanczos(const SemiDiscrete& system, double t, ConstVec u, const SpectrumOptions& options) {

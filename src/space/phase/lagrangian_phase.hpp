@@ -170,6 +170,9 @@ class PhaseFields {
   /// The relative norm of the part of the points' Cauchy stresses that no function of the grid feels: their difference
   /// from their least-squares fit by the grid's functions, body by body, √(Σ V_p |σ_p − σ(x_p)|²/Σ V_p |σ_p|²).
   virtual double null_space_stress(double t, ConstVec u) const = 0;
+  /// mass.factor Σ_p m_p N_ip N_jp, (n × n) [kg]: the inertia of the material alone, which is less than the mass of
+  /// the motion, and next to nothing for functions that hardly reach the body.
+  virtual SparseMatrix material_mass() const = 0;
   /// The largest stress beyond the strength; empty: no law is viscous.
   virtual std::optional<OverStress> over_stress() const = 0;
 

@@ -29,6 +29,11 @@ class PhaseFieldsOf final : public PhaseFields {
   PointData point_data() const override { return frame_.account().point_data(frame_.origin); }
   void point_history(const std::string& name, Vec out) const override { frame_.account().history(name, out); }
   std::optional<OverStress> over_stress() const override { return frame_.account().over_stress(); }
+  SparseMatrix material_mass() const override {
+    return frame_.problem.mass.factor *
+           consistent_mass<B, K>(frame_.grid, frame_.body.points, frame_.weights, frame_.corner_sum, frame_.dofs())
+               .free;
+  }
 
   void point_field(PointQuantity quantity, double t, ConstVec nodal, Vec out) const override {
     const MaterialPoints<dim>& points = frame_.body.points;
