@@ -185,6 +185,26 @@ TEST_CASE("a smooth disc that is pushed along a smooth block is not said to rest
              Catch::Contains("nothing holds 'disc' along x"));
 }
 
+TEST_CASE("two bodies that are rough to each other come to rest, though their contact opens and closes on the way") {
+  // What closes again bore the shear of its neighbours at once: there was no rest between open and closed.
+  const double slope = std::tan(0.4);
+  const Summary s = scenes::run_text(fmt::format(
+      "dim = 2\n[grid]\nmin = [0, 0]\nmax = [1, 2]\ncells = [7, 15]\n"
+      "[[body]]\nname = 'lower'\npolygon = [[0, 0], [1, 0], [1, {0}], [0, 0.61]]\nmaterial = 'm'\nplacement = 'gauss'\n"
+      "[[body]]\nname = 'upper'\npolygon = [[0, 0.61], [1, {0}], [1, 1.7], [0, 1.7]]\nmaterial = 'm'\n"
+      "placement = 'gauss'\n"
+      "[material.m]\nlaw = 'linear-elastic'\nE = 100\nnu = 0.3\nrho = 1\n"
+      "[[contact]]\nbodies = ['upper', 'lower']\nfriction = 'rough'\n"
+      "[[support]]\nface = 'bottom'\nkind = 'roller'\n[[support]]\nface = 'left'\nkind = 'roller'\n"
+      "[[support]]\nface = 'right'\nkind = 'roller'\n"
+      "[[traction]]\nline = [[0, 1.7], [1, 1.7]]\nvalue = [0, -1]\n"
+      "[damping]\nstrategy = 'auto'\n[stop]\nresidual = 1e-10\nsteps = 10000\n",
+      0.61 + slope));
+  CAPTURE(s.reason);
+  CHECK(s.status == RunStatus::equilibrium);
+  CHECK(s.contacts.at("upper+lower.force_y") == Approx(1).epsilon(1e-8));
+}
+
 TEST_CASE("an elastic disc rests with its weight on an elastic block, whichever of the two is named first") {
   const double weight = 1e4 * 30 * 0.09 * std::sin(2 * std::numbers::pi / 60);  // ρ g times the polygon's area
   for (const std::string pair : {"'block', 'disc'", "'disc', 'block'"}) {

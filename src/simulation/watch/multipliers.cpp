@@ -4,16 +4,16 @@
 // Each time they change, the body is out of balance again, by what it will have to go on. So they are taken first at a
 // residual of 0.1, and then each time that half of what the last update put out of balance is left, and no more than
 // that 0.1: body and pressures come to their places together. Friction remembers each state on the way, and the first
-// overshoot of the motion is one of another state: with it they are taken first at a residual of 1e-2, and then at a
-// tenth of the last residual, down to the one that the scene asks for. They are taken at least twice, until what the
-// grid's functions can tell of a penetration is less than a thousandth of a cell, and until another update would change
-// what the body feels of them by no more than thirty times the residual that the scene asks for. At the edge of a
-// contact a piece may open and close from one update to the next; once they come no nearer, there are no more. Under
-// loads that still change they follow once in a while, and after a longer while even if the body is not near balance:
-// in a motion that is never quiet the penalty alone would press else, and give way. There is no end to those, and they
-// are taken evenly: what swings at the moment of an update is not to stay as a pressure. Nor are they taken shortly
-// before a row of the history, unless rows are as close as they are: for a while both the new multipliers and the
-// penetration of before press.
+// overshoot of the motion is one of another state: with it they are taken first at a residual of 1e-2, and then each
+// time that a third is left, which is where most bodies come to rest soonest. They are taken at least twice, until
+// what the grid's functions can tell of a penetration is less than a thousandth of a cell, and until another update
+// would change what the body feels of them by no more than thirty times the residual that the scene asks for. At the
+// edge of a contact a piece may open and close from one update to the next; once they come no nearer, there are no
+// more. Under loads that still change they follow once in a while, and after a longer while even if the body is not
+// near balance: in a motion that is never quiet the penalty alone would press else, and give way. There is no end to
+// those, and they are taken evenly: what swings at the moment of an update is not to stay as a pressure. Nor are they
+// taken shortly before a row of the history, unless rows are as close as they are: for a while both the new
+// multipliers and the penetration of before press.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -77,17 +77,18 @@ class Multipliers : public Watcher {
     since_nearest_ += std::clamp(std::log10(unbalanced_ / residual), 0.0, 2.0);
     if (change_ < nearer() * least_change_) least_change_ = change_, since_nearest_ = 0;
     unbalanced_ = run.motion->known_residual(run.t);
-    goal_ = remembers_ ? std::max(goal_ / 10, least_)
+    goal_ = remembers_ ? std::clamp(third * unbalanced_, least_, std::max(quiet, least_))
                        : std::clamp(half * unbalanced_, least_ / 10, std::max(early, least_));
   }
 
-  // Takes an equilibrium back whose contact penetrates, as its multipliers come to no end: by much, or by a little
-  // where its forces are still other ones from one update to the next.
+  // Takes an equilibrium back whose contact penetrates by much, as its multipliers come to no end, or whose forces are
+  // still other ones from one update to the next.
   void confirm(RunState& run, Verdict& verdict) override {
     constexpr double much = 5 * largest_misfit, other = 0.05;
-    if (!touches_ || updates_ < most) return;
+    if (!touches_) return;
     const ContactState state = run.model.phase->supports().contact_state(run.t, run.motion->u());
-    if (state.misfit <= (state.change > other ? largest_misfit : much)) return;
+    const bool are_other = state.change > other && unbalanced_ > 10 * least_;
+    if (!are_other && (updates_ < most || state.misfit <= much)) return;
     verdict = {RunStatus::step_limit,
                fmt::format("no equilibrium: after {} updates of its multipliers contact still gives way by {:.2g} "
                            "cells where most, and another would change the forces on the body by {:.2g} %; "
@@ -105,7 +106,6 @@ class Multipliers : public Watcher {
   }
 
   void fill_state(Summary& summary, RunState& run) override {
-    constexpr double negligible = 1e-3;  // of the forces
     if (!touches_) return;
     note_stretch(summary, run);
     if (!run.scene.stop.wants_equilibrium()) return;
@@ -128,7 +128,8 @@ class Multipliers : public Watcher {
 
  private:
   static constexpr double early = 0.1, quiet = 1e-2, least_by_default = 1e-6, largest_misfit = 1e-3;
-  static constexpr double half = 0.5;
+  static constexpr double half = 0.5, third = 0.3;
+  static constexpr double negligible = 1e-3;     // change of the forces
   static constexpr long fewest = 2, most = 200;  // updates
   static constexpr long stride = 8;              // [steps] between two looks at the residual of a motion
 
@@ -173,7 +174,8 @@ class Multipliers : public Watcher {
   bool comes_no_nearer(const ContactState& state) const {
     constexpr double patience = 4;
     constexpr long enough = 40;  // updates, of which the last twenty keep what opens (contact_force.hpp)
-    return state.misfit <= largest_misfit && since_nearest_ >= patience && (remembers_ || updates_ >= enough);
+    return state.misfit <= largest_misfit && since_nearest_ >= patience &&
+           ((remembers_ && state.change <= negligible) || updates_ >= enough);
   }
   // Whether the body is as near to balance as the next update wants it.
   bool is_due(RunState& run, bool loads_stay) {

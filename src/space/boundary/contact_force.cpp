@@ -219,7 +219,8 @@ void ContactForce<K, Finder>::drag(const RigidPlacement<N>& placement, const Tou
   anchor_[touch.piece] = touch.X + (tau - lambda_t_[touch.piece]) / touch.kappa;
 }
 
-// A piece that is open sticks where it closes, which is near to where it is now.
+// A piece that is open sticks where it closes, which is near to where it is now, and bears no shear there: one without
+// a limit would jump to it, and there may be no rest between the two.
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::commit(double t, const double* u) {
   const RigidPlacement<N> placement = this->placement(t, u);
@@ -230,8 +231,11 @@ void ContactForce<K, Finder>::commit(double t, const double* u) {
     closed_[touch.piece] = 1;
     if (touch.slips) drag(placement, touch);
   });
-  for (std::size_t s = 0; s < closed_.size(); ++s)
-    if (!closed_[s]) anchor_[s] = placement.to_body(TouchFinder<K>::position_of(surface_.position(s, u)));
+  for (std::size_t s = 0; s < closed_.size(); ++s) {
+    if (closed_[s]) continue;
+    anchor_[s] = placement.to_body(TouchFinder<K>::position_of(surface_.position(s, u)));
+    lambda_t_[s].setZero();
+  }
 }
 
 template <Kinematics K, class Finder>
