@@ -87,7 +87,7 @@ TEST_CASE("a motion with critical damping is pressed in no more than 2.2 times t
   }
 }
 
-TEST_CASE("friction takes 2.5 times the evaluations of the same traction at most in a damped motion, 3.8 of a free body") {
+TEST_CASE("friction takes a damped motion 2.5 times the evaluations of the same traction at most, a free body 3.8") {
   // 2.3, 1.5, 2.1 and 3.6, balance having to last for a period; 5, 1.8, 3.1 and 6.8 by updates at each tenth of the
   // residual. A free footing is let down on its edges one after the other.
   for (const Pressed& by : pressed) {
