@@ -68,11 +68,14 @@ double share_of_material(const Problem& problem, const Model& model, const Frequ
 }
 
 // Where points move on, some come into a cell by a part in a million of its length, and functions that reach no more of
-// them move as slowly as nothing else does. No error bound counts on them there.
+// them move as slowly as nothing else does. No error bound counts on them there, and no rest can wait for them. Those
+// that are but a little slower than the material are waited for: its stress may not be even before they are at rest.
 FrequencyEstimate lowest_of_material(const Model& model, FrequencyEstimate of_all) {
   FrequencyEstimate of_material = lowest_frequency(model.phase->tangents().matrix(Tangent::elastic, model.t, model.u),
                                                    model.phase->fields().material_mass(), model.phase->mass());
-  return of_material.converged ? std::move(of_material) : std::move(of_all);
+  constexpr double too_slow = 0.1;
+  return of_material.converged && of_all.omega < too_slow * of_material.omega ? std::move(of_material)
+                                                                              : std::move(of_all);
 }
 
 }  // namespace
