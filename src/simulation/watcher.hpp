@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "simulation/run_state.hpp"
-#include "simulation/watcher.hpp"
 
 namespace stillpoint {
 
