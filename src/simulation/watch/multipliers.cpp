@@ -1,19 +1,20 @@
-// The multipliers of contact: a body that is nearly in balance takes its contact pressures as
-// multipliers, and goes on to where nothing penetrates.
+// The multipliers of contact: a body that is nearly in balance takes its contact pressures as multipliers, and goes on
+// to where nothing penetrates.
 //
 // Each time they change, the body is out of balance again, by what it will have to go on. So they are taken first at a
 // residual of 0.1, and then each time that half of what the last update put out of balance is left, and no more than
 // that 0.1: body and pressures come to their places together. Friction remembers each state on the way, and the first
 // overshoot of the motion is one of another state: with it they are taken first at a residual of 1e-2, and then each
-// time that a third is left, which is where most bodies come to rest soonest. They are taken at least twice, until
-// what the grid's functions can tell of a penetration is less than a thousandth of a cell, and until another update
-// would change what the body feels of them by no more than thirty times the residual that the scene asks for. At the
-// edge of a contact a piece may open and close from one update to the next; once they come no nearer, there are no
-// more. Under loads that still change they follow once in a while, and after a longer while even if the body is not
-// near balance: in a motion that is never quiet the penalty alone would press else, and give way. There is no end to
-// those, and they are taken evenly: what swings at the moment of an update is not to stay as a pressure. Nor are they
-// taken shortly before a row of the history, unless rows are as close as they are: for a while both the new
-// multipliers and the penetration of before press.
+// time that a third of that is left, which is where most bodies come to rest soonest. They are taken at least twice,
+// until what the grid's functions can tell of a penetration is less than a thousandth of a cell, and until another
+// update would change what the body feels of them by no more than thirty times the residual that the scene asks for. At
+// the edge of a contact a piece may open and close from one update to the next; once they come no nearer, there are no
+// more, but with friction only if another would change it by a thousandth, or after forty. Under loads that still
+// change they follow once in a while, and after a longer while even if the body is not near balance: in a motion that
+// is never quiet the penalty alone would press else, and give way. There is no end to those, and they are taken evenly:
+// what swings at the moment of an update is not to stay as a pressure. Nor are they taken shortly before a row of the
+// history, unless rows are as close as they are: for a while both the new multipliers and the penetration of before
+// press.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -9,7 +9,6 @@
 #include "space/boundary/facet_finder.hpp"
 #include "space/boundary/force_across.hpp"
 #include "space/boundary/small_stiffness.hpp"
-#include "space/boundary/trace_fit.hpp"
 
 namespace stillpoint {
 
@@ -57,10 +56,7 @@ void ContactForce<K, Finder>::archive(const StateArchive& state) {
   resize();
   for (Eigen::Index i = 0; i < N && finder_.is_free(); ++i) state(fmt::format("settled_{}", i), settled_[i]);
   for (const auto& part : surface_.parts()) archive_part(state.part(surface_.name_of(part)), part);
-  std::vector<double> kept(kept_.begin(), kept_.end());
-  state("updates", updates_);
-  state.none_or(surface_.size(), "kept", kept);
-  kept_.assign(kept.begin(), kept.end());
+  multipliers_.archive(state);
 }
 
 template <Kinematics K, class Finder>
@@ -76,22 +72,17 @@ void ContactForce<K, Finder>::take_over(const StateArchive& state) {
 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::resize() {
-  lambda_.resize(surface_.size());
+  multipliers_.resize();
   if (!remembers()) return;
-  lambda_t_.resize(lambda_.size());
   anchor_.resize(surface_.size());
   closed_.resize(anchor_.size());
 }
 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::archive_part(const StateArchive& state, const typename ContactSurface<K>::Part& part) {
-  const std::size_t pieces = part.end_piece - part.first_piece;
-  state("lambda", Vec(lambda_).subspan(part.first_piece, pieces));
+  multipliers_.archive_part(state, part);
   if (!remembers()) return;
-  std::span<Position> lambda_t = std::span(lambda_t_).subspan(part.first_piece, pieces),
-                      anchor = std::span(anchor_).subspan(part.first_piece, pieces);
-  state.each(
-      "lambda_t", lambda_t, [](Position & of) -> auto& { return of; });
+  std::span<Position> anchor = std::span(anchor_).subspan(part.first_piece, part.end_piece - part.first_piece);
   state.each(
       "anchor", anchor, [](Position & of) -> auto& { return of; });
 }
@@ -163,7 +154,7 @@ double ContactForce<K, Finder>::way_to_touch(const RigidPlacement<N>& placement,
   const auto everywhere = [](std::size_t) { return std::numeric_limits<double>::infinity(); };
   finder_.for_near(placement, u, everywhere, [&](const typename TouchFinder<K>::Near& near) {
     const double kappa = patches[near.patch].stiffness;
-    least = std::min(least, near.at.distance - (kappa > 0 ? lambda_[near.piece] / kappa : 0));
+    least = std::min(least, near.at.distance - (kappa > 0 ? multipliers_.pressure(near.piece) / kappa : 0));
   });
   return std::max(0.0, least);
 }
@@ -216,11 +207,11 @@ void ContactForce<K, Finder>::add_entries(Tangent kind, double t, const double* 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::drag(const RigidPlacement<N>& placement, const Touch& touch) {
   const Position tau = placement.Q.transpose() * touch.tau;
-  anchor_[touch.piece] = touch.X + (tau - lambda_t_[touch.piece]) / touch.kappa;
+  anchor_[touch.piece] = touch.X + (tau - multipliers_.shear(touch.piece)) / touch.kappa;
 }
 
-// A piece that is open sticks where it closes, which is near to where it is now, and bears no shear there: one without
-// a limit would jump to it, and there may be no rest between the two.
+// A piece that is open sticks where it closes, which is near to where it is now, and bears no shear there: a shear
+// without a limit would be back at once, and there may be no rest between open and closed.
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::commit(double t, const double* u) {
   const RigidPlacement<N> placement = this->placement(t, u);
@@ -234,118 +225,7 @@ void ContactForce<K, Finder>::commit(double t, const double* u) {
   for (std::size_t s = 0; s < closed_.size(); ++s) {
     if (closed_[s]) continue;
     anchor_[s] = placement.to_body(TouchFinder<K>::position_of(surface_.position(s, u)));
-    lambda_t_[s].setZero();
-  }
-}
-
-template <Kinematics K, class Finder>
-auto ContactForce<K, Finder>::touches(const RigidPlacement<N>& placement, const double* u) const -> Touches {
-  Touches touches;
-  for_closed(placement, u, [&](const Touch& touch) {
-    touches.all.push_back(touch);
-    touches.pieces.push_back(touch.piece);
-  });
-  if (kept_.empty()) return touches;
-  std::vector<char> open = kept_;
-  for (const std::size_t s : touches.pieces) open[s] = 0;
-  const auto patches = surface_.patches();
-  for (std::size_t k = 0; k < patches.size(); ++k) {
-    for (std::size_t s = patches[k].begin; s < patches[k].end; ++s) {
-      if (!open[s]) continue;
-      Touch touch{};
-      touch.patch = k;
-      touch.piece = s;
-      touch.at.normal.setZero();
-      touch.at.distance = lambda_[s] / patches[k].stiffness;
-      touch.area = surface_.area(s);
-      touch.kappa = patches[k].stiffness;
-      touches.all.push_back(touch);
-      touches.pieces.push_back(s);
-    }
-  }
-  return touches;
-}
-
-template <Kinematics K, class Finder>
-auto ContactForce<K, Finder>::means_of_patches(const std::vector<Touch>& touches, const Eigen::MatrixXd& values) const
-    -> PatchMeans {
-  const std::size_t patches = surface_.patches().size();
-  PatchMeans means{std::vector<double>(patches, 0.0),
-                   Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(patches), values.cols())};
-  Eigen::Index row = 0;
-  for (const Touch& touch : touches) {
-    means.area[touch.patch] += touch.area;
-    means.values.row(static_cast<Eigen::Index>(touch.patch)) += touch.area * values.row(row++);
-  }
-  for (std::size_t k = 0; k < patches; ++k)
-    if (means.area[k] > 0) means.values.row(static_cast<Eigen::Index>(k)) /= means.area[k];
-  return means;
-}
-
-template <Kinematics K, class Finder>
-Eigen::RowVectorXd ContactForce<K, Finder>::multiplier(std::size_t piece) const {
-  Eigen::RowVectorXd value(remembers() ? 1 + N : 1);
-  value[0] = lambda_[piece];
-  if (remembers()) value.template tail<N>() = lambda_t_[piece];
-  return value;
-}
-
-template <Kinematics K, class Finder>
-void ContactForce<K, Finder>::set_multiplier(std::size_t piece, const Eigen::RowVectorXd& value) {
-  lambda_[piece] = std::max(0.0, value[0]);
-  if (remembers()) lambda_t_[piece] = value.template tail<N>();
-}
-
-// Of bodies that deform much pieces open and close within cells, and by functions they come to no end.
-template <Kinematics K, class Finder>
-Eigen::MatrixXd ContactForce<K, Finder>::told(const Touches& touches, const Eigen::MatrixXd& borne) const {
-  if (surface_.is_of_small_strain()) return TraceFit(surface_.pieces(), touches.pieces)(borne);
-  const PatchMeans means = means_of_patches(touches.all, borne);
-  Eigen::MatrixXd told(borne.rows(), borne.cols());
-  Eigen::Index row = 0;
-  for (const Touch& touch : touches.all) told.row(row++) = means.values.row(static_cast<Eigen::Index>(touch.patch));
-  return told;
-}
-
-// A piece that is open beside others of its patch bears as they do where it closes.
-template <Kinematics K, class Finder>
-void ContactForce<K, Finder>::take(const std::vector<Touch>& touches, const Eigen::MatrixXd& borne) {
-  const PatchMeans means = means_of_patches(touches, borne);
-  const auto patches = surface_.patches();
-  for (std::size_t k = 0; k < patches.size(); ++k)
-    for (std::size_t s = patches[k].begin; s < patches[k].end; ++s)
-      set_multiplier(s, means.values.row(static_cast<Eigen::Index>(k)));
-  Eigen::Index row = 0;
-  for (const Touch& touch : touches) set_multiplier(touch.piece, borne.row(row++));
-}
-
-// Instead of the changes of the patches themselves those that groups of them have in common, and their neighbours.
-template <Kinematics K, class Finder>
-void ContactForce<K, Finder>::change_evenly(const std::vector<Touch>& touches, Eigen::MatrixXd borne) {
-  Eigen::Index row = 0;
-  for (const Touch& touch : touches) borne.row(row++) -= multiplier(touch.piece);
-  const PatchMeans means = means_of_patches(touches, borne);
-  const PatchNeighbours& neighbours = surface_.neighbours();
-  const Eigen::RowVectorXd none = Eigen::RowVectorXd::Zero(borne.cols());
-  std::vector<double> area(neighbours.groups(), 0.0);
-  std::vector<char> bears(area.size(), 0);
-  std::vector<Eigen::RowVectorXd> change(area.size(), none);
-  for (std::size_t k = 0; k < means.area.size(); ++k) {
-    if (!(means.area[k] > 0)) continue;
-    const std::size_t group = neighbours.group_of(k);
-    bears[group] = 1;
-    area[group] += means.area[k];
-    change[group] += means.area[k] * means.values.row(static_cast<Eigen::Index>(k));
-  }
-  for (std::size_t group = 0; group < area.size(); ++group)
-    if (bears[group]) change[group] /= area[group];
-  const auto patches = surface_.patches();
-  for (std::size_t k = 0; k < patches.size(); ++k) {
-    const bool touches_anything = means.area[k] > 0;
-    const Eigen::RowVectorXd even =
-        touches_anything ? neighbours.smoothed(neighbours.group_of(k), change, bears) : none;
-    for (std::size_t s = patches[k].begin; s < patches[k].end; ++s)
-      set_multiplier(s, touches_anything ? Eigen::RowVectorXd(multiplier(s) + even) : none);
+    multipliers_.release_shear(s);
   }
 }
 
@@ -358,26 +238,10 @@ bool ContactForce<K, Finder>::is_touched(double t, const double* u) const {
 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::update_multipliers(double t, const double* u, bool evenly) {
-  constexpr long soon = 20;  // updates, after most contacts have come to their end
   const RigidPlacement<N> placement = this->placement(t, u);
-  if (!evenly && ++updates_ >= soon) {
-    kept_.resize(surface_.size());
-    for_closed(placement, u, [&](const Touch& touch) { kept_[touch.piece] = 1; });
-  }
-  const Touches touches = this->touches(placement, u);
-  Eigen::MatrixXd borne(touches.all.size(), remembers() ? 1 + N : 1);  // p, τ
-  Eigen::Index row = 0;
-  for (const Touch& touch : touches.all) {
-    borne(row, 0) = touch.p;
-    if (remembers()) borne.row(row).template tail<N>() = placement.Q.transpose() * touch.tau;
-    ++row;
-  }
-  if (evenly) {
-    change_evenly(touches.all, std::move(borne));
-  } else {
-    take(touches.all, told(touches, borne));
-  }
-  for (const Touch& touch : touches.all)
+  const std::vector<Touch> closed = this->closed(placement, u);
+  multipliers_.update(closed, placement.Q, evenly);
+  for (const Touch& touch : closed)
     if (touch.slips && remembers()) drag(placement, touch);
 }
 
@@ -385,35 +249,37 @@ template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::add_fit(double t, const double* u, ContactFit& fit) const {
   const RigidPlacement<N> placement = this->placement(t, u);
   if (finder_.is_free()) fit.balanced = fit.balanced && balance(t, placement, u).is_near();
-  const Touches touches = this->touches(placement, u);
-  Eigen::MatrixXd fitted(touches.all.size(), 2);  // g, p
+  const std::vector<Touch> touches = multipliers_.with_kept(closed(placement, u));
+  Eigen::MatrixXd fitted(touches.size(), 2);  // g, p
   Eigen::Index row = 0;
-  for (const Touch& touch : touches.all) fitted.row(row++) << touch.at.distance, touch.p;
-  fitted = told(touches, fitted);
+  for (const Touch& touch : touches) fitted.row(row++) << touch.at.distance, touch.p;
+  fitted = multipliers_.told(touches, fitted);
   const auto feel = [&](const Touch& touch, double p, std::vector<double>& unknowns) {
     Point<dim> f;
     for (std::size_t i = 0; i < dim; ++i) f[i] = touch.area * p * touch.at.normal[static_cast<Eigen::Index>(i)];
     surface_.add(touch.piece, f, unknowns, {});
   };
   row = 0;
-  for (const Touch& touch : touches.all) {
+  for (const Touch& touch : touches) {
     fit.touches = true;
     fit.misfit = std::max(fit.misfit, std::abs(fitted(row, 0)) / surface_.patches()[touch.patch].cell);
     feel(touch, touch.p, fit.forces);
-    feel(touch, fitted(row, 1) - lambda_[touch.piece], fit.changes);
+    feel(touch, fitted(row, 1) - multipliers_.pressure(touch.piece), fit.changes);
     ++row;
   }
 }
 
 template <Kinematics K, class Finder>
 std::vector<double> ContactForce<K, Finder>::mean_gaps(double t, const double* u) const {
-  std::vector<double> area(surface_.patches().size(), 0.0), gaps = area;
-  for_closed(this->placement(t, u), u, [&](const Touch& touch) {
-    area[touch.patch] += touch.area;
-    gaps[touch.patch] += touch.area * touch.at.distance;
-  });
+  const std::vector<Touch> touches = closed(this->placement(t, u), u);
+  Eigen::MatrixXd distances(touches.size(), 1);
+  Eigen::Index row = 0;
+  for (const Touch& touch : touches) distances(row++, 0) = touch.at.distance;
+  const auto means = multipliers_.means_of_patches(touches, distances);
+  std::vector<double> gaps(means.area.size());
   for (std::size_t k = 0; k < gaps.size(); ++k)
-    gaps[k] = area[k] > 0 ? gaps[k] / area[k] : std::numeric_limits<double>::quiet_NaN();
+    gaps[k] =
+        means.area[k] > 0 ? means.values(static_cast<Eigen::Index>(k), 0) : std::numeric_limits<double>::quiet_NaN();
   return gaps;
 }
 
@@ -434,11 +300,8 @@ auto ContactForce<K, Finder>::ways_to_mean_gap(double t, const double* u) const 
 
 template <Kinematics K, class Finder>
 void ContactForce<K, Finder>::follow(const std::vector<PieceOrigin>& origins, std::vector<Position>& slip) {
-  lambda_ = of_pieces_cut_anew(lambda_, origins);
-  updates_ = 0;
-  kept_.clear();
+  multipliers_.follow(origins);
   if (!remembers()) return;
-  lambda_t_ = of_pieces_cut_anew(lambda_t_, origins);
   slip = of_pieces_cut_anew(slip, origins);
   anchor_.resize(slip.size());
   closed_.assign(slip.size(), 0);

@@ -12,13 +12,8 @@
 //   ∂f/∂x = −A (κ n nᵀ − p ∇n).
 //
 // A penalty alone gives way by p/κ. The augmented Lagrangian [Simo and Laursen 1992] takes that back: in equilibrium λ
-// becomes what the grid's functions can tell of p (trace_fit.hpp), or in bodies that deform much its mean over the
-// patch, and the body goes on to where g has no such part.
-//
-// With Π for what can be told, λ ← Π max(0, λ − κ g) comes to its end from any λ if Π is one and the same projection:
-// it is firmly nonexpansive, as the steps of an augmented Lagrangian are [Rockafellar 1976]. A Π over the pieces that
-// touch at the time is not, and where pieces open and close from one update to the next there is no end. After some
-// twenty updates those that open therefore stay in it, with p = 0.
+// becomes what the grid's functions can tell of p, or in bodies that deform much its mean over the patch
+// (contact_multipliers.hpp), and the body goes on to where g has no such part.
 //
 // Friction [Coulomb] and adhesion c: with the anchor a, the position T⁻¹ x at which the piece stuck last, the elastic
 // slip s = (I − n nᵀ)(T⁻¹ x − a) and the multiplier λ_t,
@@ -47,6 +42,7 @@
 
 #include "space/boundary/condition_reports.hpp"
 #include "space/boundary/contact_law.hpp"
+#include "space/boundary/contact_multipliers.hpp"
 #include "space/boundary/contact_surface.hpp"
 #include "space/boundary/free_rigid_body.hpp"
 #include "space/boundary/touch_finder.hpp"
@@ -81,8 +77,7 @@ class ContactForce {
       : surface_(surface),
         finder_(std::move(finder)),
         shear_(shear),
-        lambda_(surface.size(), 0.0),
-        lambda_t_(shear.acts() ? surface.size() : 0, Position::Zero()),
+        multipliers_(surface, shear.acts()),
         anchor_(shear.acts() ? surface.size() : 0, Position::Zero()),
         closed_(anchor_.size(), 0) {}
 
@@ -167,41 +162,21 @@ class ContactForce {
   template <class Visit>
   void for_touches(const RigidPlacement<N>& placement, const double* u, double slack, const Visit& visit) const;
   void drag(const RigidPlacement<N>& placement, const Touch& touch);
-  /// The pieces that bear a pressure, and then those that are kept with them although they are open: of p = 0 at the
-  /// gap λ/κ.
-  struct Touches {
-    std::vector<Touch> all;
-    std::vector<std::size_t> pieces;
-  };
-  Touches touches(const RigidPlacement<N>& placement, const double* u) const;
-  /// Of what touches, by area.
-  struct PatchMeans {
-    std::vector<double> area;  // (patches) [m²]; 0 where nothing touches
-    Eigen::MatrixXd values;    // (patches × components); 0 there
-  };
-  /// What can be told of values of the pieces that touch, (touches × components): what the grid's functions can
-  /// (trace_fit.hpp), or the means of patches.
-  Eigen::MatrixXd told(const Touches& touches, const Eigen::MatrixXd& borne) const;
-  PatchMeans means_of_patches(const std::vector<Touch>& touches, const Eigen::MatrixXd& values) const;
-  /// λ, and with friction λ_t, as a row.
-  Eigen::RowVectorXd multiplier(std::size_t piece) const;
-  void set_multiplier(std::size_t piece, const Eigen::RowVectorXd& value);
-  /// borne: by the pieces that touch, (touches × components of a multiplier).
-  void take(const std::vector<Touch>& touches, const Eigen::MatrixXd& borne);
-  void change_evenly(const std::vector<Touch>& touches, Eigen::MatrixXd borne);
+  std::vector<Touch> closed(const RigidPlacement<N>& placement, const double* u) const {
+    std::vector<Touch> closed;
+    for_closed(placement, u, [&](const Touch& touch) { closed.push_back(touch); });
+    return closed;
+  }
 
   const ContactSurface<K>& surface_;
   Finder finder_;
   ShearLimit shear_;
   Position settled_ = Position::Zero();  // d of the last commit, from where the next is looked for [m]
-  // Of the pieces, and all but the first with friction alone:
-  std::vector<double> lambda_;      // λ [Pa]
-  std::vector<Position> lambda_t_;  // λ_t, in the axes of T⁻¹ x [Pa]
-  std::vector<Position> anchor_;    // a, in the same axes [m]
-  std::vector<char> closed_;        // of commit()
-  long updates_ = 0;                // of the multipliers since the border was cut, but those made evenly
-  std::vector<char> kept_;          // whether a piece has touched at one of them, late ones alone; empty before those
-  std::vector<char> was_there_;     // (bodies up to the last that was); empty in the first stage
+  ContactMultipliers<K> multipliers_;
+  // Of the pieces, with friction alone:
+  std::vector<Position> anchor_;  // a, in the axes of T⁻¹ x [m]
+  std::vector<char> closed_;      // of commit()
+  std::vector<char> was_there_;   // (bodies up to the last that was); empty in the first stage
 };
 
 template <Kinematics K, class Finder>
@@ -210,19 +185,17 @@ void ContactForce<K, Finder>::for_touches(const RigidPlacement<N>& placement, co
                                           const Visit& visit) const {
   const auto patches = surface_.patches();
   const auto reach = [&](std::size_t k) {
-    const auto begin = lambda_.begin() + static_cast<std::ptrdiff_t>(patches[k].begin);
-    const double most =
-        *std::max_element(begin, begin + static_cast<std::ptrdiff_t>(patches[k].end - patches[k].begin));
+    const double most = multipliers_.largest_pressure(k);
     return (patches[k].stiffness > 0 ? most / patches[k].stiffness : 0) + slack * patches[k].cell;
   };
   finder_.for_near(placement, u, reach, [&](const typename TouchFinder<K>::Near& near) {
     const double kappa = patches[near.patch].stiffness;
-    const double pressure = lambda_[near.piece] - kappa * near.at.distance;
+    const double pressure = multipliers_.pressure(near.piece) - kappa * near.at.distance;
     if (!(pressure >= -kappa * slack * patches[near.patch].cell)) return;
     Touch touch{near, surface_.area(near.piece), kappa, std::max(0.0, pressure)};
     if (shear_.acts()) {
       const Position slip = near.X - anchor_[near.piece];
-      add_shear<K>(shear_, placement.Q * (lambda_t_[near.piece] - kappa * slip), touch);
+      add_shear<K>(shear_, placement.Q * (multipliers_.shear(near.piece) - kappa * slip), touch);
     }
     visit(touch);
   });
