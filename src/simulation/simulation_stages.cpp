@@ -70,15 +70,20 @@ void Simulation::Impl::next_stage() {
   let_watchers_begin();
 }
 
-// The records go on in files that are there; watchers look at each stage by itself.
+// The records go on in files that are there; watchers look at each stage by itself, but for what it leaves for good.
 void Simulation::Impl::begin_stage(StageBegin begins) {
   auto next = std::make_unique<RunState>(*run_, scene_of_next_stage(run_->scene), std::move(begins));
   const bool has_records = recorder_.has_value();
+  SavedState seen;
+  for (const auto& [name, watcher] : watchers_)
+    watcher->archive_for_next_stage(StateArchive::saving(seen).part(name));
   recorder_.reset();
   watchers_.clear();
   run_ = std::move(next);
   stage_verdict_ = {};
   watchers_ = make_watchers(*run_);
+  for (const auto& [name, watcher] : watchers_)
+    watcher->archive_for_next_stage(StateArchive::restoring(seen).part(name));
   run_->begin_phase(run_->model.u, run_->model.v);
   if (has_records) recorder_.emplace(*run_, /*resumed=*/true);
 }

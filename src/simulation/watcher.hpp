@@ -43,6 +43,9 @@ class Watcher {
 
   /// Saves or restores what the watcher has seen.
   virtual void archive(const StateArchive&, RunState&) {}
+  /// Saves what it has seen that no later stage mends, or restores that in the watcher of the next stage, which has seen
+  /// nothing else.
+  virtual void archive_for_next_stage(const StateArchive&) {}
 };
 
 /// Adds a note to a summary; one that is empty adds nothing.
@@ -65,6 +68,7 @@ std::unique_ptr<Watcher> watch_left_in_points();
 std::unique_ptr<Watcher> watch_passed_bodies();
 std::unique_ptr<Watcher> watch_sudden_bodies(const RunState& run);
 std::unique_ptr<Watcher> watch_hooked_corners();
+std::unique_ptr<Watcher> watch_coarse_contact();
 std::unique_ptr<Watcher> watch_unheld_bodies();
 std::unique_ptr<Watcher> watch_rate_share(const RunState& run);
 std::unique_ptr<Watcher> watch_multipliers(RunState& run);

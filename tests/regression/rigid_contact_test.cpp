@@ -378,4 +378,53 @@ TEST_CASE("auto goes downhill under a free rigid plate, whose place is no histor
   CHECK(s.reactions.at("floor").at(1) == Approx(7188.20015).epsilon(1e-5));
 }
 
+TEST_CASE("Newton's method brings a free disc to rest in a groove, however little weighs on it") {
+  const std::string groove = R"toml(
+dim = 2
+[constants]
+W = 1.0
+[grid]
+min = [0, 0]
+max = [2, 1.5]
+cells = [16, 12]
+[[body]]
+name = "left"
+polygon = [[0, 0], [1, 0], [1, 0.4], [0, 1.2]]
+material = "soil"
+[[body]]
+name = "right"
+polygon = [[1, 0], [2, 0], [2, 1.2], [1, 0.4]]
+material = "soil"
+[material.soil]
+law = "linear-elastic"
+E = 1e5
+nu = 0.3
+rho = 1
+[[support]]
+face = "bottom"
+[[support]]
+face = "left"
+kind = "roller"
+[[support]]
+face = "right"
+kind = "roller"
+[[rigid]]
+name = "disc"
+disc = [1, 1.1]
+radius = 0.3
+free = true
+force = ["0", "-W"]
+[solve]
+method = "newton"
+[stop]
+residual = 1e-8
+)toml";
+  for (const double weight : {1.0, 0.3, 0.1, 0.03, 0.01}) {
+    CAPTURE(weight);
+    const Summary rests = scenes::run_text(groove, {fmt::format("constants.W={}", weight)});
+    CHECK(rests.status == RunStatus::equilibrium);
+    CHECK(rests.contacts.at("disc.force_y") == Approx(-weight).epsilon(1e-6));
+  }
+}
+
 }  // namespace stillpoint::test

@@ -122,4 +122,42 @@ time = 2.0
   }
 }
 
+TEST_CASE("what a rigid body that a stage puts into a body at once leaves in its points is told in all later stages") {
+  const std::string block = R"toml(
+dim = 2
+[grid]
+min = [0, 0]
+max = [2, 1.5]
+cells = [16, 12]
+[[body]]
+max = [2, 1]
+material = "m"
+[material.m]
+law = "neo-hookean"
+E = 1e6
+nu = 0.3
+rho = 1000
+[[support]]
+face = "bottom"
+[[rigid]]
+name = "punch"
+disc = [1, 1.4625]
+radius = 0.5
+[phase]
+max_motion = 0.3
+quadrature = "points"
+[[stage]]
+at = 0.05
+add = ["punch"]
+[[stage]]
+at = 2
+[stop]
+residual = 1e-6
+)toml";
+  const Summary pushed = run_text(block);
+  CHECK(pushed.status == RunStatus::step_limit);
+  CHECK(pushed.reason.find("'punch' was 0.29 cells inside a body at once") != std::string::npos);
+  CHECK(run_text(block, {"rigid[0].disc=[1, 1.495]"}).status == RunStatus::equilibrium);
+}
+
 }  // namespace stillpoint::test

@@ -264,4 +264,37 @@ value = [4, -10]
   CHECK_FALSE(says(run_text(tower + to_rest, {"body_force.value=[0.1, -10]"}), "takes a rotation for a strain"));
 }
 
+TEST_CASE("a force that about two places of a border bear is told to be known to a tenth at best, on any way to rest") {
+  // A tilted face comes down on a block with its corner: on 16 cells there are two states of rest, 20 % apart.
+  const std::string edge = R"toml(
+dim = 2
+[grid]
+min = [0, 0]
+max = [2, 1.5]
+cells = [16, 12]
+[[body]]
+max = [2, 0.97]
+material = "m"
+[[support]]
+face = "bottom"
+[[rigid]]
+name = "punch"
+polygon = [[0.63, 0.98], [1.41, 1.09], [1.39, 1.4], [0.6, 1.3]]
+motion = ["0", "-0.03*min(t, 0.05)/0.05"]
+)toml" + pad_rubber;
+  const std::string at_once = "rigid[0].motion=['0', '-0.03']";
+  const Summary moved = run_text(edge + to_rest), sudden = run_text(edge + to_rest, {at_once}),
+                newton = run_text(edge, {at_once, "solve.method=newton"});
+  const auto force = [](const Summary& summary) { return summary.contacts.at("punch.force_y"); };
+  CHECK(force(moved) == Approx(force(newton)).epsilon(1e-3));
+  CHECK(std::abs(force(sudden) - force(newton)) > 0.1 * std::abs(force(newton)));  // or the note is for nothing
+  for (const Summary& summary : {moved, sudden, newton}) CHECK(says(summary, "'punch' is borne by"));
+
+  // A flat face that is felt all along, and a block that is no wider than a cell and is touched all over, are exact.
+  const std::vector<std::string> flat{"rigid[0].polygon=[[0.5, 0.98], [1.5, 0.98], [1.5, 1.4], [0.5, 1.4]]"};
+  CHECK_FALSE(says(run_text(edge + to_rest, flat), "is borne by"));
+  CHECK_FALSE(says(run_text(edge + to_rest, scenes::with(flat, {"body[0].min=[1, 0]", "body[0].max=[1.125, 0.97]"})),
+                   "is borne by"));
+}
+
 }  // namespace stillpoint::test

@@ -34,6 +34,7 @@ class Multipliers : public Watcher {
       : touches_(run.model.phase->info().may_touch),
         remembers_(run.scene.rubs()),
         least_(run.scene.stop.residual > 0 ? run.scene.stop.residual : least_by_default),
+        nearest_(run.scene.solve.is_static() ? least_ : least_ / 10),
         largest_change_(std::clamp(30 * least_, 1e-9, 1e-3)),
         between_(run.model.dwell / 4),
         goal_(std::max(remembers_ ? quiet : early, least_)) {
@@ -79,7 +80,7 @@ class Multipliers : public Watcher {
     if (change_ < nearer() * least_change_) least_change_ = change_, since_nearest_ = 0;
     unbalanced_ = run.motion->known_residual(run.t);
     goal_ = remembers_ ? std::clamp(third * unbalanced_, least_, std::max(quiet, least_))
-                       : std::clamp(half * unbalanced_, least_ / 10, std::max(early, least_));
+                       : std::clamp(half * unbalanced_, nearest_, std::max(early, least_));
   }
 
   // Takes an equilibrium back whose contact penetrates by much, as its multipliers come to no end, or whose forces are
@@ -190,7 +191,8 @@ class Multipliers : public Watcher {
   }
 
   bool touches_, remembers_;  // remembers_: with friction
-  double least_;              // the smallest residual to wait for
+  double least_;              // the residual that the scene asks for
+  double nearest_;            // the smallest to wait for: a static solver has come to rest at what is asked for
   double largest_change_;     // that another update would make, as a share of the forces of contact
   double between_;            // the time between updates under changing loads [s]
   double goal_;               // the residual to wait for

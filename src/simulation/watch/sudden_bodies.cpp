@@ -40,8 +40,10 @@ class SuddenBodies : public Watcher {
     if (cells_ > negligible) add_note(summary, fault());
   }
   void archive(const StateArchive& state, RunState&) override {
-    state("looked_at", looked_at_, "cells", cells_, "name", name_);
+    state("looked_at", looked_at_);
+    archive_for_next_stage(state);
   }
+  void archive_for_next_stage(const StateArchive& state) override { state("cells", cells_, "name", name_); }
 
  private:
   static constexpr double negligible = 0.11;  // [cells]

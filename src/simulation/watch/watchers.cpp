@@ -56,6 +56,7 @@ std::vector<Watched> make_watchers(RunState& run) {
   list.push_back({"passed_bodies", watch_passed_bodies()});
   list.push_back({"sudden_bodies", watch_sudden_bodies(run)});
   list.push_back({"hooked_corners", watch_hooked_corners()});
+  list.push_back({"coarse_contact", watch_coarse_contact()});
   list.push_back({"left_in_points", watch_left_in_points()});
   return list;
 }

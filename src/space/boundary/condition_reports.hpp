@@ -46,6 +46,7 @@ struct ContactReport {
                                    // the plane the third alone [N m]
   std::array<double, 3> displacement{};  // of a free rigid body, since the run began [m]
   double area = 0;                       // where it touches [m²]
+  double few = 0;                        // the pieces that bear, if they are few amid a border (pushed_pieces.hpp)
   double penetration = 0;                // the largest [cells]
   double held = 0;                       // the same where supports hold the border against it
   double slipping = 0;                   // share of that area which slips

@@ -326,7 +326,7 @@ ContactReport ContactForce<K, Finder>::report(double t, const double* u) const {
     } else if (shear_.acts()) {
       report.shear_left += touch.area * (shear_.at(touch.p) - touch.tau.norm());
     }
-    if (finder_.is_free()) pushed.push_back({touch.patch, touch.piece, touch.area * touch.p * touch.at.normal});
+    pushed.push_back({touch.patch, touch.piece, touch.area * touch.p * touch.at.normal});
     const Position f = touch.area * (touch.p * touch.at.normal + touch.tau), arm = touch.x - centre;
     for (int i = 0; i < N; ++i) report.force[static_cast<std::size_t>(i)] += f[i];
     add_moment<N>(arm, f, report.moment);
@@ -342,7 +342,8 @@ ContactReport ContactForce<K, Finder>::report(double t, const double* u) const {
   report.slipping = report.area > 0 ? slipping / report.area : 0;
   if (K == Kinematics::axisymmetric) hooked[0] = 0;  // which cancels around the axis
   report.hooked = hooked.norm();
-  report.across = force_across<K>(surface_, pushed, u);
+  report.few = few_amid_border(surface_, pushed);
+  if (finder_.is_free()) report.across = force_across<K>(surface_, pushed, u);
   report.is_gone = is_gone(t, u);
   return report;
 }

@@ -30,7 +30,6 @@ double distance_from_cone(const Position& F, const std::vector<Position>& e) {
 
 template <Kinematics K>
 double force_across(const ContactSurface<K>& surface, const std::vector<PushedPiece<K>>& pushed, const double* u) {
-  constexpr double few = 3;                // pieces along each direction of the border
   constexpr double beside = 1, chord = 2;  // [cells]
   constexpr double alike = 0.7;            // the cosine between the normals of a chord
   using Position = typename TouchFinder<K>::Position;
@@ -38,15 +37,10 @@ double force_across(const ContactSurface<K>& surface, const std::vector<PushedPi
     if (K == Kinematics::axisymmetric) way[0] = 0;
     return way.normalized();
   };
+  if (!are_few(pushed)) return 0;
   Position F = Position::Zero();
-  double sum = 0, squares = 0;
-  for (const PushedPiece<K>& at : pushed) {
-    F += at.force;
-    sum += at.force.norm();
-    squares += at.force.squaredNorm();
-  }
+  for (const PushedPiece<K>& at : pushed) F += at.force;
   if (K == Kinematics::axisymmetric) F[0] = 0;
-  if (!(sum * sum <= std::pow(few, dimensions(K) - 1) * squares)) return 0;
   const auto patches = surface.patches();
   std::vector<Position> inwards;
   for (const PushedPiece<K>& at : pushed) {

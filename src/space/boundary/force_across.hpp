@@ -11,17 +11,9 @@
 
 #include <vector>
 
-#include "space/boundary/contact_surface.hpp"
-#include "space/boundary/touch_finder.hpp"
+#include "space/boundary/pushed_pieces.hpp"
 
 namespace stillpoint {
-
-/// A piece of a border that is touched, with what pushes it, A p n [N].
-template <Kinematics K>
-struct PushedPiece {
-  std::size_t patch, piece;
-  typename TouchFinder<K>::Position force;
-};
 
 /// The distance of F from that cone at u [N]; 0 where more than few pieces bear it. Around an axis along the axis
 /// alone.
