@@ -158,10 +158,13 @@ void check_body_names(SceneCheck& check, const std::string& key, const std::vect
 /// Checks that rigid body k has a shape.
 void check_rigid_shape(SceneCheck& check, std::size_t k);
 void check_loads(SceneCheck& check, const std::optional<NamedBox>& body);
+void check_initial_stress(SceneCheck& check, const std::optional<NamedBox>& body);
 /// Checks that the body force is a constant weight, for the key whose stress bears it.
 void check_weight(SceneCheck& check, const std::string& key);
 void check_exact(SceneCheck& check, bool bodies);
 void check_phases(SceneCheck& check, bool grid);
+/// Checks what a run that begins with the points of another one does not go with.
+void check_other_run(SceneCheck& check);
 /// Checks the stages to come, of a scene in its first one.
 void check_stages(SceneCheck& check);
 void check_output(SceneCheck& check, const std::optional<NamedBox>& body);

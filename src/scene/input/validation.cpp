@@ -218,9 +218,11 @@ void validate(const Scene& scene, const std::vector<FileMistake>& files, Reading
   check_rigid_bodies(check);
   check_contacts(check);
   check_loads(check, body);
+  check_initial_stress(check, body);
   check_exact(check, body.has_value());
   check_phases(check, grid);
   const bool is_first_stage = !scene.present_stage || scene.present_stage->at == 0;
+  if (is_first_stage) check_other_run(check);
   if (is_first_stage) check_stages(check);
   if (is_first_stage) check_output(check, scene.phase.at_stages && body ? box_of_all_stages(scene) : body);
   if (const StaticMethodInfo* const solver = catalogue.static_method(scene.solve.method)) {
