@@ -83,7 +83,7 @@ TEST_CASE("the cylinder has Lamé's radial and hoop stress in the middle of its 
   CHECK(relaxed.error->u_rel_l2 == Approx(cylinder_error({}, 8)).epsilon(1e-3));
 }
 
-TEST_CASE("a pressure that follows makes sigma = -p in a block at large strain; a dead load of the same size makes P") {
+TEST_CASE("a pressure that follows makes sigma = -p in a block at large strain, a dead load of the same size P") {
   // The dead load pulls: one that presses from all sides lets a block turn over.
   constexpr double p = 0.3;  // of E
   const auto relaxed = [](const std::string& law, const std::string& state, const std::string& load) {

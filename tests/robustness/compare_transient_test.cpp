@@ -71,7 +71,7 @@ TEST_CASE("a transient whose error is as large as its displacement has not conve
   CHECK_THAT(grown.reason, Contains("as large as the displacement"));
 }
 
-TEST_CASE("one-sided damping overshoots where soil yields, less under a load that grows; viscous damping does not",
+TEST_CASE("one-sided damping overshoots where soil yields, less under a load that grows, and viscous does not",
           "[compare]") {
   const Comparison step = yielding_column("1e-4"), ramp = yielding_column("0.5"), slow = yielding_column("2");
   const auto overshoot = [](const Comparison& c, const std::string& label) {

@@ -177,7 +177,7 @@ TEST_CASE("the critical step is stable for every frequency and rate in the range
   }
 }
 
-TEST_CASE("viscous damping has one rate; identity damping has those of the extreme masses") {
+TEST_CASE("viscous damping has one rate, identity damping has those of the extreme masses") {
   const Chain lumped({.masses = {2, 0.5, 4}});
   const DampedSpectrum viscous = damped_spectrum(1, 9, TestDamping({.mass = 0.3}, 1), lumped.mass());
   CHECK(viscous.rate_min == 0.3);

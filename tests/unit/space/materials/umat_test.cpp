@@ -244,7 +244,7 @@ TEST_CASE("Abaqus' utility routines turn tensors, and find invariants and princi
   CHECK(largest_difference(alone, values) < 1e-14);
 }
 
-TEST_CASE("a UMAT that asks for a smaller step, or that leaves, gives no number; leaving is told once") {
+TEST_CASE("a UMAT that asks for a smaller step, or that leaves, gives no number, and leaving is told once") {
   constexpr StressState S = StressState::plane_strain;
   const test::TemporaryFolder folder;
   const Gradient<S> small{1e-4, 0, 0, 0}, large{0.05, 0, 0, 0};

@@ -127,7 +127,7 @@ TEST_CASE("a domain's deformation is that of its corners since the start") {
   CHECK(F[3] == Approx(0.9).epsilon(1e-12));
 }
 
-TEST_CASE("elastic boxes of uniform points take domains, all others points; domains that cannot be are refused") {
+TEST_CASE("elastic boxes of uniform points take domains, all others points, and domains that cannot be are refused") {
   const auto quadrature = [](std::vector<std::string> overrides) {
     overrides.insert(overrides.begin(), "damping.strategy=cundall");
     return free_block(overrides).phase.quadrature;
