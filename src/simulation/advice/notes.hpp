@@ -17,6 +17,8 @@ namespace stillpoint {
 /// mass that was chosen.
 std::vector<std::string> accuracy_notes(const Problem& problem, const LagrangianPhase& phase, MassScaling scaling);
 
+/// Notes on what the points integrate, in the cells inside and in those that a body's border cuts.
+std::vector<std::string> quadrature_notes(const Problem& problem, const LagrangianPhase& phase, MassScaling scaling);
 /// A note if a material is nearly incompressible, or flows plastically, and no remedy is chosen: the cells lock, since
 /// their points must keep to more than their nodes can do.
 std::optional<std::string> locking_note(const Problem& problem);
