@@ -20,6 +20,8 @@ struct NewtonOptions {
                            // than a tenth
   int max_iterations = 25;      // Newton iterations in a load step
   int load_steps = 1;           // initial number: a step is halved if it fails, doubled if it is easy
+  bool sets_out_small = false;  // an undisplaced body is loaded by a 256th of a load step first, and then by twice as
+                                // much each time: contact with friction remembers in how small a step it closed
   double max_load_step = 1;     // largest share of the load in a step, so that a path is followed closely
   double min_load_step = 1e-3;  // smallest share of the load in a step: a shorter step that fails is the end
   double symmetry = 1e-12;      // K is symmetric if ‖K − Kᵀ‖ ≤ this ‖K‖ (Frobenius)

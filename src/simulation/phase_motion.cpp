@@ -16,7 +16,8 @@ std::unique_ptr<Stepper> make_stepper(const Model& model, const Problem& problem
     return make_static_method({.name = model.static_method->name,
                                .max_step = model.integrator.max_step,
                                .tolerance = residual,
-                               .load_steps = problem.solve.load_steps},
+                               .load_steps = problem.solve.load_steps,
+                               .closes_with_friction = problem.rubs()},
                               system);
   }
   if (model.relaxation && model.method.hosts_relaxations) return make_relaxation(model.relaxing, system);

@@ -427,4 +427,55 @@ residual = 1e-8
   }
 }
 
+TEST_CASE("a static solver in one load step remembers the friction of contact that closes as slow loading does") {
+  // A conical cap comes down on a bar by a hundredth: as slip, that way would use up the friction.
+  const std::string cap = R"toml(
+dim = 2
+[constants]
+T = 1e-9
+[grid]
+min = [0, 0]
+max = [2, 2]
+cells = [16, 16]
+[[body]]
+name = "bar"
+polygon = [[0, 0], [1, 0], [1, 1], [0, 1.3]]
+material = "m"
+state = "axisymmetric"
+[material.m]
+law = "hencky"
+E = 1000
+nu = 0.25
+rho = 1
+[[support]]
+face = "bottom"
+kind = "roller"
+[[support]]
+face = "left"
+kind = "roller"
+[[rigid]]
+name = "cap"
+half_plane = [[0, 1.31], [-0.28734788556634544, -0.9578262852211514]]
+free = true
+force = [0, "-32*min(1, t/T)"]
+friction = 0.2
+[stop]
+residual = 1e-7
+)toml";
+  const auto radial = [&](const std::vector<std::string>& way) {
+    const Summary rests = scenes::run_text(cap, way);
+    CHECK(rests.status == RunStatus::equilibrium);
+    CHECK(rests.contacts.at("cap.force_y") == Approx(-32).epsilon(1e-5));
+    return rests.contacts.at("cap.force_x");
+  };
+  const double slow = radial({"damping.strategy=auto", "constants.T=20"});
+  for (const char* solver : {"newton", "lbfgs"}) {
+    CAPTURE(solver);
+    const std::vector<std::string> in_one{fmt::format("solve.method={}", solver), "rigid[0].force=[0, -32]"};
+    const double one = radial(in_one), many = radial(scenes::with(in_one, {"solve.load_steps=20"}));
+    CHECK(one == Approx(many).epsilon(0.01));
+    CHECK(one == Approx(slow).epsilon(0.02));  // a motion swings by about that
+  }
+}
+
 }  // namespace stillpoint::test

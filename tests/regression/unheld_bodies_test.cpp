@@ -98,6 +98,17 @@ TEST_CASE("a block that slides on a rigid plane for ever ends the run, which say
   }
 }
 
+TEST_CASE("a block that lacks little friction, and sticks now and then, slides and a static solver has lost it") {
+  const std::vector<std::string> nearly{"rigid[0].friction=0.996*tan(theta)", "stop.residual=1e-7", "stop.time=0"};
+  const Summary sticks =
+      run(scenes::load("ladder/incline", scenes::with(nearly, {"damping.strategy=auto", "stop.steps=1000000"})));
+  CHECK_THAT(sticks.reason, Contains("it slides: along rigid body 'slope', 100 % of the body"));
+  CHECK(sticks.rhs_evaluations < 500'000);
+  const Summary lost = run(scenes::load("ladder/incline", scenes::with(nearly, {"solve.method=lbfgs"})));
+  CHECK(lost.status == RunStatus::failed);
+  CHECK_THAT(lost.reason, Contains("times the length of the grid, and nothing brings it to rest"));
+}
+
 TEST_CASE(
     "a smooth round free body that is pushed along a border comes to no rest between two places that feel contact") {
   const auto ground = [](const char* body, const char* rigid, const char* cells) {

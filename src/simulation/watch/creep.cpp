@@ -97,7 +97,10 @@ void Creep::sample(double t, ConstVec u, bool settled) {
   for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] += of_points[dim_ * stride_ * (k / dim_) + k % dim_];
   sum_t_ += t;
   ++samples_;
-  slid_ = slid_ || !giving_way_.slides_along(t, u).empty();
+  if (std::vector<std::string> along = giving_way_.slides_along(t, u); !along.empty()) {
+    slid_ = true;
+    slid_along_ = std::move(along);
+  }
   if (t >= block_end_ - period_ / 8) close_block();
 }
 
@@ -114,13 +117,16 @@ void Creep::close_block() {
   const double now = giving_way_.plastic_strain();
   const bool gives = now > plastic_strain_ || slid_ || !giving_way_.shows();
   plastic_strain_ = std::max(plastic_strain_, now);
+  if (!slid_) slid_along_.clear();
   has_given_ = has_given_ || gives;
   gives_ = gives;
-  if (!gives || !(way_left_.exponent() <= steady_exponent)) {
-    steady_since_ = -1;
-  } else if (steady_since_ < 0) {
+  if (!(way_left_.exponent() <= steady_exponent)) steady_since_ = -1;
+  if (steady_since_ < 0 && gives && way_left_.exponent() <= steady_exponent) {
     steady_since_ = last_t_;
+    steady_blocks_ = giving_blocks_ = 0;
   }
+  ++steady_blocks_;
+  if (gives) ++giving_blocks_;
   begin_block(last_t_);
 }
 
@@ -143,9 +149,12 @@ bool Creep::loads_have_changed(double t) const {
 }
 
 // True if a steady motion has gone on for long enough, and over more than a cell in a single phase: nothing stops it.
+// Near its friction a body sticks now and then.
 bool Creep::slides_away() const {
+  constexpr double least_giving = 0.5;  // of the blocks
   const double since = steady_since_ - begun_at_, now = last_t_ - begun_at_;
-  return may_slide_away_ && steady_since_ >= 0 && now >= 2 * since + 8 * period_ && way_left_.way() > cell_;
+  return may_slide_away_ && steady_since_ >= 0 && now >= 2 * since + 8 * period_ && gives_ &&
+         giving_blocks_ >= least_giving * steady_blocks_ && way_left_.way() > cell_;
 }
 
 // "it slides: …", at (t, u), if the body has given way until now, in a motion whose way left is not known; else empty.
@@ -167,8 +176,7 @@ std::string Creep::description(double t, ConstVec u) const {
       high[i] = std::max(high[i], x[dim_ * stride_ * k + i]);
     }
   }
-  const std::vector<std::string> sliding = giving_way_.slides_along(t, u);
-  const std::string along = sliding.empty() ? "" : fmt::format("along {}, ", fmt::join(sliding, " and "));
+  const std::string along = slid_along_.empty() ? "" : fmt::format("along {}, ", fmt::join(slid_along_, " and "));
   const double q = way_left_.exponent();
   const std::string decay =
       q <= steady_exponent ? "which does not decay"
@@ -189,8 +197,9 @@ void Creep::archive(const StateArchive& state, RunState& run) {
   for (const std::size_t size : {sum_.size(), way_left_.size_of_block()})
     if (size != 0 && size != expected) throw StateError("the creep is that of another number of points");
   state("samples", samples_, "sum_t", sum_t_, "block_end", block_end_, "next", next_, "last_t", last_t_,
-        "plastic_strain", plastic_strain_, "begun", begun_, "has_given", has_given_, "gives", gives_, "slid", slid_,
-        "steady_since", steady_since_, "begun_at", begun_at_, "contact_is_settled", contact_is_settled_);
+        "plastic_strain", plastic_strain_, "slid_along", slid_along_, "begun", begun_, "has_given", has_given_, "gives",
+        gives_, "slid", slid_, "steady_since", steady_since_, "steady_blocks", steady_blocks_, "giving_blocks",
+        giving_blocks_, "begun_at", begun_at_, "contact_is_settled", contact_is_settled_);
   publish(run);
 }
 

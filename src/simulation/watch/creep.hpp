@@ -49,9 +49,11 @@ class Creep : public Watcher {
   bool begun_ = false;                      // whether there was a sample
   bool has_given_ = false, gives_ = false;  // whether the body gave way in any block, and in the last one
   bool slid_ = false;                       // whether it slid in this block
+  std::vector<std::string> slid_along_;     // on what it slid when it was last seen to
   bool contact_is_settled_ = false;         // whether the multipliers of contact were settled at the last sample
   double steady_since_ = -1;  // the time from which on the motion gives way and does not slow down [s]; negative: none
-  double begun_at_ = 0;       // the time from which on the loads have stayed [s]
+  double steady_blocks_ = 0, giving_blocks_ = 0;  // blocks since then, and those in which it gave way
+  double begun_at_ = 0;                           // the time from which on the loads have stayed [s]
 };
 
 }  // namespace stillpoint

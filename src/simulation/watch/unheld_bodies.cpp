@@ -201,6 +201,23 @@ std::string body_that_leaves(RunState& run) {
   return moves_away(problem, name_of_body(problem, fastest), unit(set.ways[fastest]));
 }
 
+/// A body that has gone far beyond the grid in a single phase, in words; empty: none has. What it slides on may hold it
+/// by friction in K, and a solver without time has no velocity that would tell.
+std::string body_that_is_lost(RunState& run) {
+  constexpr double far = 100;  // extents of the grid
+  if (run.model.phase->info().updated_lagrangian) return "";
+  double extent = 0, furthest = 0;
+  for (std::size_t d = 0; d < run.scene.grid.min.size(); ++d)
+    extent = std::max(extent, run.scene.grid.max[d] - run.scene.grid.min[d]);
+  for (const double u : run.motion->u()) furthest = std::max(furthest, std::abs(u));
+  if (!(furthest > far * extent)) return "";
+  return fmt::format(
+      "a node has moved by {:.3g} m, {:.2g} times the length of the grid, and nothing brings it to rest: what holds "
+      "the "
+      "body slides or is gone; expected a support or more friction, or stop.residual = 0 and stop.time for its motion",
+      furthest, furthest / extent);
+}
+
 class UnheldBodies : public Watcher {
  public:
   Verdict judge(RunState& run) override {
@@ -221,6 +238,7 @@ class UnheldBodies : public Watcher {
     const LagrangianPhase& phase = *run.model.phase;
     const bool wants_rest = problem.stop.wants_equilibrium() && !(problem.stop.time > 0) && problem.stages.empty();
     if (!wants_rest || !problem.may_touch() || !run.schedule.settled(run.t)) return "";
+    if (std::string said = body_that_is_lost(run); !said.empty()) return said;
     if (std::string said = free_body_that_left(problem, phase, run.t, run.motion->u()); !said.empty()) return said;
     // What walls and driven loads do is not in K, and in phases a body that moves away comes to the end of the grid.
     const bool is_known = !phase.contact() && !problem.load && !phase.info().updated_lagrangian;

@@ -37,7 +37,8 @@ class Newton {
     }
     tell_equilibrium(0, u_);
     std::vector<double> u(u_.begin(), u_.end());
-    LoadIncrements load({1.0 / options_.load_steps, options_.max_load_step, options_.min_load_step});
+    LoadIncrements load({1.0 / options_.load_steps, options_.max_load_step, options_.min_load_step,
+                         options_.sets_out_small && supports_set_out_});
     while (!load.at_end()) {
       LoadStep& step = report_.load_steps.emplace_back();
       step.from = load.from();

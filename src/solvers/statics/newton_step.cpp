@@ -82,6 +82,7 @@ void precondition(NewtonOptions& options, const Mass& M) {
 std::unique_ptr<Stepper> make_newton(const StaticMethodOptions& options, RelaxationSystem& system) {
   NewtonOptions of_newton = newton_options(options.name, options.load_steps);
   of_newton.tolerance = options.tolerance;
+  of_newton.sets_out_small = options.closes_with_friction;
   if (system.keeps_momentum()) precondition(of_newton, system.mass());
   // The run itself tests the final state for stability, and says what is wrong with it.
   of_newton.accept_unstable = !system.system().history_dependent() && system.size() <= direct_solver_limit;

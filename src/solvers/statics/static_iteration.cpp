@@ -16,7 +16,7 @@ namespace {
 LoadIncrements increments(const StaticMethodOptions& options) {
   constexpr double smallest = 1e-3;
   const double share = 1.0 / options.load_steps;
-  return LoadIncrements({share, share, smallest * share});
+  return LoadIncrements({share, share, smallest * share, options.closes_with_friction});
 }
 
 }  // namespace
@@ -40,6 +40,7 @@ bool StaticIteration::begin(double t, const Vector& y) {
   load_.start_over();
   steps_of_first_ = 0;
   supports_set_out_ = is_undisplaced(u);
+  if (!supports_set_out_) load_.begin_anew();
   move_supports_on(0);
   if (!system().out_of_balance(t, u, Q_begin_.span())) return false;
   way_.begin(supports_set_out_ ? 0 : 1, system().last().R.span(), system().last().trial->reactions, u);

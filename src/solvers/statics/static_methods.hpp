@@ -13,10 +13,11 @@
 namespace stillpoint {
 
 struct StaticMethodOptions {
-  std::string_view name;  // one of static_methods()
-  double max_step = 0;    // a step below leapfrog's critical one, for the first try along M⁻¹Q [s]; > 0
-  double tolerance = 0;   // ‖F − R‖/‖F‖ at which Newton's method and load increments end; > 0
-  int load_steps = 1;     // increments of the load, at least
+  std::string_view name;              // one of static_methods()
+  double max_step = 0;                // a step below leapfrog's critical one, for the first try along M⁻¹Q [s]; > 0
+  double tolerance = 0;               // ‖F − R‖/‖F‖ at which Newton's method and load increments end; > 0
+  int load_steps = 1;                 // increments of the load, at least
+  bool closes_with_friction = false;  // whether contact with friction may close: the first increments are small
 };
 
 /// Every static solver, in the order of `stillpoint list`.

@@ -157,6 +157,7 @@ Intrusion RigidContact<K>::deepest_border(std::size_t r, const RigidPlacement<N>
           const double share = look * (1.0 / looks), along = (1 - share) * -to_end[i] + share * (length + to_end[j]);
           Point<dim> between;
           for (std::size_t d = 0; d < dim; ++d) between[d] = x[i][d] + along / length * (x[j][d] - x[i][d]);
+          if (K == Kinematics::axisymmetric && between[0] < 0) continue;  // the border ends on the axis
           deepest.take(-finder.distance(between, placement) / patches[k].cell, patches[k].body, between);
         }
       }
@@ -170,6 +171,7 @@ Intrusion RigidContact<K>::deepest_border(std::size_t r, const RigidPlacement<N>
 template <Kinematics K>
 Intrusion RigidContact<K>::deepest_surface(std::size_t r, const RigidPlacement<N>& placement,
                                            const std::vector<BorderPiece<K>>& border) const {
+  constexpr double far = 4;  // extents of the grid: a border as long as that is no border any more
   Intrusion deepest{.of = Intrusion::Of::surface, .rigid = r};
   const TouchFinder<K>& finder = bodies_[r].finder();
   for (const auto& part : surface_.parts()) {
@@ -185,8 +187,9 @@ Intrusion RigidContact<K>::deepest_surface(std::size_t r, const RigidPlacement<N
     };
     for (const std::vector<double>& corner : corners_of(finder.spec()))
       look(placement.to_space(Position(corner.data())));
-    const auto [from, to] = search.box();
-    visit_surface(finder, placement, TouchFinder<K>::position_of(from), TouchFinder<K>::position_of(to), cell, look);
+    const auto [low, high] = search.box();
+    const Position from = TouchFinder<K>::position_of(low), to = TouchFinder<K>::position_of(high);
+    if ((to - from).maxCoeff() <= far * surface_.extent()) visit_surface(finder, placement, from, to, cell, look);
   }
   return deepest;
 }
