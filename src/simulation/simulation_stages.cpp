@@ -75,8 +75,7 @@ void Simulation::Impl::begin_stage(StageBegin begins) {
   auto next = std::make_unique<RunState>(*run_, scene_of_next_stage(run_->scene), std::move(begins));
   const bool has_records = recorder_.has_value();
   SavedState seen;
-  for (const auto& [name, watcher] : watchers_)
-    watcher->archive_for_next_stage(StateArchive::saving(seen).part(name));
+  for (const auto& [name, watcher] : watchers_) watcher->archive_for_next_stage(StateArchive::saving(seen).part(name));
   recorder_.reset();
   watchers_.clear();
   run_ = std::move(next);

@@ -43,8 +43,8 @@ class Watcher {
 
   /// Saves or restores what the watcher has seen.
   virtual void archive(const StateArchive&, RunState&) {}
-  /// Saves what it has seen that no later stage mends, or restores that in the watcher of the next stage, which has seen
-  /// nothing else.
+  /// Saves what it has seen that no later stage mends, or restores that in the watcher of the next stage, which has
+  /// seen nothing else.
   virtual void archive_for_next_stage(const StateArchive&) {}
 };
 

@@ -50,6 +50,11 @@ class BodyContact {
 
   void commit(const double* u);
   void update_multipliers(const double* u, bool evenly);
+  double friction_work() const {
+    double work = 0;
+    for (const Pair* const pair : whole_) work += pair->force.friction_work();
+    return work;
+  }
   bool is_touched(const double* u) const {
     return std::ranges::any_of(whole_, [&](const Pair* pair) { return pair->force.is_touched(0, u); });
   }

@@ -228,6 +228,11 @@ bool Conditions<K>::are_touched(double t, const double* u) const {
 }
 
 template <Kinematics K>
+double Conditions<K>::friction_work() const {
+  return rigid_contact_->friction_work() + body_contact_->friction_work();
+}
+
+template <Kinematics K>
 ContactState Conditions<K>::contact_state(const Parts& phase, double t, const double* u) const {
   ContactFit fit(phase.dofs.size());
   rigid_contact_->add_fit(t, u, fit);

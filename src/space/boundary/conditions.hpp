@@ -125,6 +125,7 @@ class Conditions {
   std::vector<WeakSupport> weak_supports(double t, const double* u) const { return weak_supports_.report(t, u); }
   std::vector<ContactReport> contacts(double t, const double* u) const;
   bool are_touched(double t, const double* u) const;
+  double friction_work() const;
   ContactState contact_state(const Parts& phase, double t, const double* u) const;
   std::vector<Intrusion> intrusions(const Parts& phase, double t, const double* u) const;
   bool rigid_bodies_jump(double before, double t) const;

@@ -57,6 +57,7 @@ void ContactForce<K, Finder>::archive(const StateArchive& state) {
   for (Eigen::Index i = 0; i < N && finder_.is_free(); ++i) state(fmt::format("settled_{}", i), settled_[i]);
   for (const auto& part : surface_.parts()) archive_part(state.part(surface_.name_of(part)), part);
   multipliers_.archive(state);
+  if (remembers()) state("friction_work", friction_work_);
 }
 
 template <Kinematics K, class Finder>
@@ -220,7 +221,10 @@ void ContactForce<K, Finder>::commit(double t, const double* u) {
   std::ranges::fill(closed_, 0);
   for_closed(placement, u, [&](const Touch& touch) {
     closed_[touch.piece] = 1;
-    if (touch.slips) drag(placement, touch);
+    if (!touch.slips) return;
+    const Position before = anchor_[touch.piece];
+    drag(placement, touch);
+    friction_work_ += touch.area * touch.tau.norm() * (anchor_[touch.piece] - before).norm();
   });
   for (std::size_t s = 0; s < closed_.size(); ++s) {
     if (closed_[s]) continue;

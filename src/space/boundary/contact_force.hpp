@@ -109,6 +109,8 @@ class ContactForce {
   /// Accepts the state at (t, u): anchors are dragged to where pieces slip, and a free body is looked for from there
   /// on.
   void commit(double t, const double* u);
+  /// What slip has taken at all commits, Σ A |τ| |Δa| [J].
+  double friction_work() const { return friction_work_; }
   /// Takes the pressures at (t, u) as multipliers; evenly: by changes that are smoothed (patch_neighbours.hpp), of
   /// which there may be any number, and which are not counted.
   void update_multipliers(double t, const double* u, bool evenly);
@@ -176,7 +178,8 @@ class ContactForce {
   // Of the pieces, with friction alone:
   std::vector<Position> anchor_;  // a, in the axes of T⁻¹ x [m]
   std::vector<char> closed_;      // of commit()
-  std::vector<char> was_there_;   // (bodies up to the last that was); empty in the first stage
+  double friction_work_ = 0;
+  std::vector<char> was_there_;  // (bodies up to the last that was); empty in the first stage
 };
 
 template <Kinematics K, class Finder>

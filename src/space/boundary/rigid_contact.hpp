@@ -57,6 +57,11 @@ class RigidContact {
   void commit(double t, const double* u);
   /// Takes the pressures at (t, u) as multipliers.
   void update_multipliers(double t, const double* u, bool evenly);
+  double friction_work() const {
+    double work = 0;
+    for (const RigidBody& rigid : bodies_) work += rigid.friction_work();
+    return work;
+  }
   bool is_touched(double t, const double* u) const {
     return std::ranges::any_of(bodies_, [&](const RigidBody& rigid) { return rigid.is_touched(t, u); });
   }

@@ -199,6 +199,8 @@ class PhaseSupports {
   virtual std::vector<ContactReport> contacts(double t, ConstVec u) const = 0;
   /// Whether a pressure acts in any of them at (t, u).
   virtual bool are_touched(double t, ConstVec u) const = 0;
+  /// What has gone into slip with friction, against rigid bodies and between bodies, at all commits of this stage [J].
+  virtual double friction_work() const = 0;
   /// How well the multipliers of contact fit at (t, u).
   virtual ContactState contact_state(double t, ConstVec u) const = 0;
   /// What lies in rigid bodies without being felt, at (t, u): at most one place of a kind for each.

@@ -37,6 +37,7 @@ class PhaseSupportsOf final : public PhaseSupports {
   bool are_touched(double t, ConstVec u) const override {
     return all_.conditions.may_touch() && all_.conditions.are_touched(t, spread(t, u)->u.data());
   }
+  double friction_work() const override { return all_.conditions.friction_work(); }
   ContactState contact_state(double t, ConstVec u) const override {
     if (!all_.conditions.may_touch()) return {};
     return all_.conditions.contact_state(all_.inertia.parts(), t, spread(t, u)->u.data());
