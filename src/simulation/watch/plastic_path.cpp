@@ -134,7 +134,6 @@ class PlasticPath : public Watcher {
   double interval_ = 0, next_ = 0;      // time between samples, and that of the next one [s]
   double imbalance_ = 0, power_ = 0;    // r and Q·v at the last sample
   Grown yielded_, slid_;                // κ [m³], D [J]
-  double unbalanced_ = 0;               // ∫ r dκ [m³]
   double earlier_work_ = 0, work_ = 0;  // W of the phases before, the largest W so far [J]
   double energy_ = 0;                   // the largest kinetic energy so far [J]
   bool begun_ = false;
