@@ -14,7 +14,7 @@ class CoarseContact : public Watcher {
   void fill_state(Summary& summary, RunState& run) override {
     for (const ContactReport& contact : run.model.phase->supports().contacts(run.t, run.motion->u()))
       if (contact.few > 0)
-        add_note(summary, fmt::format("the force on {} is borne by {:.2g} of the places at which a border feels "
+        add_note(summary, fmt::format("the force on {} is borne by {:.0f} of the places at which a border feels "
                                       "contact, two in a cell and direction: where the contact ends is known to half a "
                                       "cell, and the force may be off by a tenth or more; expected smaller cells there",
                                       in_quotes(contact.name), contact.few));

@@ -120,8 +120,9 @@ void Creep::close_block() {
   if (!slid_) slid_along_.clear();
   has_given_ = has_given_ || gives;
   gives_ = gives;
-  if (!(way_left_.exponent() <= steady_exponent)) steady_since_ = -1;
-  if (steady_since_ < 0 && gives && way_left_.exponent() <= steady_exponent) {
+  if (!(way_left_.exponent() <= steady_exponent)) {
+    steady_since_ = -1;
+  } else if (gives && steady_since_ < 0) {
     steady_since_ = last_t_;
     steady_blocks_ = giving_blocks_ = 0;
   }

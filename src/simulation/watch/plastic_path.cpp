@@ -159,7 +159,9 @@ PlasticPath::PlasticPath(const RunState& run)
 // no balance, and no work of theirs.
 void PlasticPath::sample(RunState& run) {
   if (!run.options.stops) return;
-  const double residual = run.measured.all().residual, power = run.measured.all().power;
+  const Measurements::Figures& measured = run.measured.all();
+  const double residual = measured.residual, power = measured.power;
+  energy_ = std::max(energy_, measured.kinetic_energy);
   RelaxationSystem& system = run.motion->system;
   const double yielded = giving_way_.plastic_strain(), slid = rubs_ ? model_.phase->supports().friction_work() : 0,
                imbalance = model_.static_method ? std::min(residual, 1.0) / run.scene.solve.load_steps
@@ -175,14 +177,14 @@ void PlasticPath::sample(RunState& run) {
   }
   imbalance_ = imbalance;
   power_ = power;
-  energy_ = std::max(energy_, run.measured.all().kinetic_energy);
-  if (!begins || !model_.static_method) work_ = std::max(work_, earlier_work_ + work(run.t, *run.motion));
+  if (yields_ && (!begins || !model_.static_method)) work_ = std::max(work_, earlier_work_ + work(run.t, *run.motion));
   next_ = run.t + interval_;
 }
 
 void PlasticPath::end_phase(RunState& run, bool is_last) {
   if (!watches_) return;
   if (is_last) return sample(run);
+  if (!yields_) return;
   run.measured.all();
   earlier_work_ += work(run.t, *run.motion);
   work_ = std::max(work_, earlier_work_);

@@ -213,8 +213,8 @@ std::string body_that_is_lost(RunState& run) {
   if (!(furthest > far * extent)) return "";
   return fmt::format(
       "a node has moved by {:.3g} m, {:.2g} times the length of the grid, and nothing brings it to rest: what holds "
-      "the "
-      "body slides or is gone; expected a support or more friction, or stop.residual = 0 and stop.time for its motion",
+      "the body slides or is gone; expected a support or more friction, or stop.residual = 0 and stop.time for its "
+      "motion",
       furthest, furthest / extent);
 }
 
